@@ -11,6 +11,7 @@ from optipath.cli.arguments import axis_argument, axis_faults
 from optipath.cli.options import flag
 from optipath.composer.path_values import Values
 from optipath.errors import (
+    Fault,
     OptipathError,
     ParameterError,
     collecting,
@@ -79,7 +80,12 @@ def chosen_by(
 ) -> list[Chosen]:
     """Return what the options give, for each case that is asked for."""
     faults = [*of_options]
-    arguments = {name: _once(name, several, faults) for name, several in texts.items() if several}
+    arguments = {name: several[-1] for name, several in texts.items() if several}
+    faults += [
+        f"{flag(name)} is given {len(several)} times; give it once"
+        for name, several in texts.items()
+        if len(several) > 1
+    ]
     uses = Values(path.graph).uses if arguments else ()
     values = {name: _value(path, name, arguments, uses, faults) for name in arguments}
     sound = {name: value for name, value in values.items() if value is not None}
@@ -103,7 +109,7 @@ def chosen_by(
 def of_each(several: Sequence[Chosen], action: Callable[[Chosen], T]) -> dict[str, T]:
     """Return what an action makes of each case, by its name."""
     results: dict[str, T] = {}
-    having: dict[str, list[str]] = {}
+    having: dict[Fault, list[str]] = {}
     for chosen in several:
         try:
             results[chosen.case or ""] = action(chosen)
@@ -111,14 +117,14 @@ def of_each(several: Sequence[Chosen], action: Callable[[Chosen], T]) -> dict[st
             for fault in error.faults:
                 having.setdefault(fault, []).append(chosen.case or "")
     if having:
-        raise ParameterError(*(_of_cases(fault, cases, several) for fault, cases in having.items()))
+        every = {fault: len(cases) == len(several) for fault, cases in having.items()}
+        raise ParameterError(
+            *(
+                fault if every[fault] else fault.under(f"case{'s' * (len(of) > 1)} {listed(of)}")
+                for fault, of in having.items()
+            )
+        )
     return results
-
-
-def _of_cases(fault: str, cases: Sequence[str], several: Sequence[Chosen]) -> str:
-    if len(cases) == len(several):
-        return fault
-    return f"{'case' if len(cases) == 1 else 'cases'} {listed(cases)}: {fault}"
 
 
 def asks_for_several(cases: Sequence[str]) -> bool:
@@ -140,13 +146,6 @@ def one_case(command: str, path: PathGraph, cases: Sequence[str]) -> str | None:
     if asks_for_several(cases):
         raise ParameterError(f"{command} takes one case{there_are([*path.cases])}")
     return cases[0] if cases else None
-
-
-def _once(name: str, several: Sequence[str], faults: list[str]) -> str:
-    """Return what is given for a parameter, which is given once."""
-    if len(several) > 1:
-        faults.append(f"{flag(name)} is given {len(several)} times; give it once")
-    return several[-1]
 
 
 def _value(

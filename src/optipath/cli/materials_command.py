@@ -21,7 +21,7 @@ from optipath.cli.console import (
 )
 from optipath.cli.options import StrictCommand
 from optipath.elements.fresnel import effective_index, fresnel_reflection
-from optipath.errors import MaterialError, OptipathError, collecting, did_you_mean
+from optipath.errors import MaterialError, collecting, did_you_mean
 from optipath.materials.database import described, known_spans, pages_with
 from optipath.materials.database_names import CURATED, VACUUM, alike, catalog_pages
 from optipath.materials.material import Material
@@ -202,55 +202,40 @@ def reported_at(
     if not name:
         raise MaterialError("--at needs the name of a material: optipath materials gold --at ...")
     faults: list[str] = []
-    where = [_read(text, faults) for text in wavelengths]
-    angle = _angle(incidence, faults)
+    where, angle = [], 0.0
+    for text in wavelengths:
+        with collecting(faults, about="--at"):
+            where.append(float(Wavelength().resolve(text).value))
+    with collecting(faults):
+        angle = float(
+            INCIDENCE_DOMAIN.check("--incidence", parse_quantity(incidence, "angle", "deg"))
+        )
     if faults:
         raise MaterialError(*faults)
-    open_one = Material.named(name, page=page, **own)
-    curve: PageCurve | None = next(
-        (part.curve for part in (open_one.n, open_one.k) if isinstance(part, CurveValue)), None
-    )
-    _check_range(curve, where)
+    parts = Material.named(name, page=page, **own)
     there = np.array(where)
-    n, k = (_numbers(part, there) for part in (open_one.n, open_one.k))
+    curve: PageCurve | None = None
+    figures = []
+    for part in (parts.n, parts.k):
+        if isinstance(part, CurveValue):
+            curve = curve or part.curve
+            for wavelength in where:
+                WavelengthRange.of(part.curve).check("--at", wavelength)
+        result = part.at(there) if isinstance(part, CurveValue) else part
+        figures.append(np.broadcast_to(np.asarray(result, np.float64), there.shape))
+    n, k = figures
     index = n + 1j * k
-    behind = effective_index(index, angle)
-    place, source = ("", "") if curve is None else (curve.place, curve.source)
+    effective_n, effective_k = effective_index(index, angle)
     return MaterialReport(
         curve.label if curve else name,
-        place,
-        source,
+        curve.place if curve else "",
+        curve.source if curve else "",
         curve.span if curve else None,
         angle,
         there,
         n,
         k,
         fresnel_reflection(index, 1.0, 0.0)[0],
-        *behind,
+        effective_n,
+        effective_k,
     )
-
-
-def _numbers(part: Any, there: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    result = part.at(there) if isinstance(part, CurveValue) else part
-    return np.broadcast_to(np.asarray(result, np.float64), there.shape)
-
-
-def _check_range(curve: PageCurve | None, wavelengths: Sequence[float]) -> None:
-    if curve is not None:
-        known = WavelengthRange.of(curve)
-        for wavelength in wavelengths:
-            known.check("--at", wavelength)
-
-
-def _read(text: str, faults: list[str]) -> float:
-    try:
-        return float(Wavelength().resolve(text).value)
-    except OptipathError as error:
-        faults += [fault.under("--at") for fault in error.faults]
-        return 1.0
-
-
-def _angle(text: str, faults: list[str]) -> float:
-    with collecting(faults):
-        return float(INCIDENCE_DOMAIN.check("--incidence", parse_quantity(text, "angle", "deg")))
-    return 0.0

@@ -57,9 +57,10 @@ class Outcome:
 
     @cached_property
     def case(self) -> Case:
-        """The case, or an empty one."""
+        """The case, if these are the values it belongs to; else an empty one."""
         name = self.chosen.case
-        return Case({}) if name is None else self.path.cases[name]
+        is_changed = bool(self.chosen.values or self.grid.axes)
+        return Case({}) if name is None or is_changed else self.path.cases[name]
 
     @property
     def model(self) -> str:
@@ -93,19 +94,6 @@ class Outcome:
         results = {name: material_as_json(label, one, wavelength) for name, label, one in argument}
         return {"materials": results}
 
-    @property
-    def note(self) -> str:
-        """The note of the case, if these are the values it belongs to."""
-        return "" if self._is_changed else self.case.note
-
-    def published(self, detector: str) -> tuple[float, ...] | None:
-        """Return the published Stokes vector, if these are the values it belongs to."""
-        return None if self._is_changed else self.case.published.get(detector)
-
-    @property
-    def _is_changed(self) -> bool:
-        return bool(self.chosen.values or self.grid.axes)
-
 
 def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> Outcome:
     """Run a plan for all that was chosen."""
@@ -128,6 +116,11 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
     """Return what a run has found as JSON can hold it, with all digits."""
     plan, parameters = outcome.plan, outcome.single
     parts = complex_parts_of(outcome.path.graph)
+    axes: dict[str, dict[str, Any]] = {}
+    for axis in outcome.grid.axes:
+        # Those along one dimension vary together.
+        along = {"dimension": axis.dimension} if axis.dimension != axis.name else {}
+        axes[axis.name] = {**along, "unit": axis.unit, "values": axis.shown.tolist()}
     results: dict[str, Any] = {
         "preset": outcome.chosen.preset,
         "parameters": {
@@ -136,7 +129,7 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
         },
         **outcome.materials,
         **({"choices": outcome.chosen.places} if outcome.chosen.places else {}),
-        **_axes_as_json(outcome.grid),
+        **({"axes": axes} if axes else {}),
         "units": {name: p.unit for name, p in parameters.items() if p.unit},
         "model": outcome.model,
         "method": plan.method,
@@ -147,28 +140,15 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
         results["tolerance"] = {**allowed, "error": plain(outcome.errors)}
     if outcome.chosen.case:
         results["case"] = outcome.chosen.case
-    if outcome.note:
-        results["note"] = outcome.note
+    if outcome.case.note:
+        results["note"] = outcome.case.note
     results["detectors"] = {name: _reading(outcome, name) for name in plan.program.detectors}
     dumps = {name: _reading(outcome, name) for name in plan.program.dumps}
     return results | ({"dumps": dumps} if dumps else {})
 
 
-def _axes_as_json(grid: SweepGrid) -> dict[str, Any]:
-    """Return the axes as they were given; those along one dimension vary together."""
-    axes = {
-        axis.name: {
-            **({"dimension": axis.dimension} if axis.dimension != axis.name else {}),
-            "unit": axis.unit,
-            "values": axis.shown.tolist(),
-        }
-        for axis in grid.axes
-    }
-    return {"axes": axes} if axes else {}
-
-
 def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
-    published, light = outcome.published(name), outcome.lights[name]
+    published, light = outcome.case.published.get(name), outcome.lights[name]
     messages: dict[str, Any] = {
         key: plain(each.of(light), each.shown_unit) for key, each in FIGURES.items()
     }
@@ -189,8 +169,8 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
     print_arguments(console, outcome, numbers)
     for name in outcome.lights:
         console.print(_light_table(outcome, name, numbers))
-    if outcome.note:
-        console.print(cell(f"note: {outcome.note}"))
+    if outcome.case.note:
+        console.print(cell(f"note: {outcome.case.note}"))
     console.print(cell(ran([outcome])))
 
 
@@ -230,14 +210,14 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
         for name, light in outcome.lights.items():
             for row in _case_rows(light, numbers, outcome.grid):
                 table.add_row(*map(cell, [f"{case}{row[0]}", name, *row[1:]]))
-            if published := outcome.published(name):
+            if published := outcome.case.published.get(name):
                 texts = [f"{number:g}" for number in published]
                 table.add_row(*map(cell, [f"{case}, published", name, *texts]))
     console.print(table)
     notes: dict[str, list[str]] = {}
     for case, outcome in outcomes.items():
-        if outcome.note:
-            notes.setdefault(outcome.note, []).append(case)
+        if outcome.case.note:
+            notes.setdefault(outcome.case.note, []).append(case)
     for note, cases in notes.items():
         console.print(
             cell(f"note on {'case' if len(cases) == 1 else 'cases'} {listed(cases)}: {note}")
@@ -268,7 +248,7 @@ def ran(outcomes: Sequence[Outcome]) -> str:
 
 
 def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
-    light, published = outcome.lights[name], outcome.published(name)
+    light, published = outcome.lights[name], outcome.case.published.get(name)
     if outcome.grid.axes:
         return point_table(f"light at {name}", light, outcome.grid, numbers)
     if light.stokes.ndim > 1:
