@@ -108,7 +108,7 @@ def test_pairs_and_intensities_that_may_be_something_else_are_asked_about(tmp_pa
         assert given.shape == (4,)
     assert op.Interface([1.5, 1.6, 1.7], 0.1).index.shape == (3,)
     text = chain([op.Mirror(-0.9)]).to_toml().replace("r_s = -0.9", "r_s = [-0.9, 0.1]")
-    with pytest.raises(op.PathError, match=r"e0.r_s: .* write { re = -0.9, im = 0.1 }") as error:
+    with pytest.raises(op.PathError, match=r"e0.r_s is .* write { re = -0.9, im = 0.1 }") as error:
         read(text, tmp_path)
     assert len(error.value.faults) == 1
 

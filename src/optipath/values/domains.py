@@ -415,9 +415,14 @@ class AmplitudeDomain(Domain):
     def doubt(self, owner: str, value: Any) -> str:
         if (pair := pair_in(value, self)) is None:
             return ""
-        return (
-            f"{owner} is {value}, which may be one complex number, or the amplitudes of two "
-            f"paths; write complex{pair} for the one, np.array({[*pair]}) for the other"
+        re, im = pair
+        return Fault(
+            f"{owner} is {value}, which may be one complex number, or the amplitudes of two paths",
+            Cure(
+                f"write complex({re}, {im}) for the one, np.array([{re}, {im}]) for the other",
+                f"write {{ re = {re}, im = {im} }} for the one, {{ re = [{re}, {im}] }} for the "
+                f"other",
+            ),
         )
 
     def read(self, owner: str, value: Any) -> Any:
