@@ -94,6 +94,10 @@ def test_blocks_of_a_store_that_are_whole_are_kept_and_damaged_ones_computed_ane
     assert damaged.startswith("optipath: 2 of 5 blocks of '")
     assert damaged.endswith("a.zarr' are damaged and computed anew")
     assert chunk.read_bytes() == content
+    (tmp_path / "a.zarr" / "blocks" / ".zattrs").write_text("[")
+    status, _, err = run(f"{ZARR} 2")
+    assert (status, len(err.splitlines())) == (2, 1)
+    assert "the metadata of the store" in err
 
 
 def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(run, monkeypatch):

@@ -89,7 +89,13 @@ def grid_of(
             replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
-    LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
+    # What has a unit besides says what it is.
+    plain = {
+        name: given.value
+        for name, given in several.items()
+        if not isinstance(given.value, TextColumn | AxisValues) and not is_labelled(given.value)
+    }
+    LargeAngles(inputs).look(plain)
     return grid
 
 
@@ -123,11 +129,6 @@ def _named_as_others(
         for dimension, name in along.items()
         if dimension in inputs.open and dimensions.get(dimension) != dimension
     ]
-
-
-def _is_plain(value: Any) -> bool:
-    """Tell whether a value may have plain numbers, without a unit beside them."""
-    return not (isinstance(value, TextColumn | AxisValues) or is_labelled(value))
 
 
 def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:

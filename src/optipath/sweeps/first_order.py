@@ -206,7 +206,7 @@ def _slope(light_at: LightAt, along: UncertainValue, stokes: Any, noise: Any) ->
     """Return the slope along one value, of shape (..., 4)."""
     step, left, right = _steps(along)
     # Quotients of both sides have errors of even orders of the step alone.
-    order = _column(np.where((left == 0.0) | (right == 0.0), 1, 2))
+    order = np.where((left == 0.0) | (right == 0.0), 1, 2)[..., np.newaxis]
     best, least = np.full_like(stokes, np.nan), np.full_like(stokes, np.inf)
     row: list[Any] = []
     for number in range(_STEPS):
@@ -215,7 +215,7 @@ def _slope(light_at: LightAt, along: UncertainValue, stokes: Any, noise: Any) ->
         above, below = (
             np.asarray(light_at.beside({along.name: end}, [along.name]).stokes) for end in ends
         )
-        width = _column(ends[0] - ends[1])
+        width = np.asarray(ends[0] - ends[1])[..., np.newaxis]
         with np.errstate(all="ignore"):
             size = np.maximum(above[..., :1], below[..., :1])
             rounding = np.fmax(_ROUNDING * size, 4.0 * noise[..., np.newaxis]) / width
@@ -245,24 +245,12 @@ def _steps(along: UncertainValue) -> tuple[Any, Any, Any]:
     return np.minimum(_FIRST * along.scale, room), left, right
 
 
-def _column(numbers: Any) -> Any:
-    return np.asarray(numbers)[..., np.newaxis]
-
-
 _SLOPE_STEPS, _OPERATIONS = 100, 1_000
 """Beyond these JAX takes seconds, or minutes, for slopes that differences have at once."""
 
 
-class StokesSlopes(NamedTuple):
-    """Slopes, and how they were found. Shape: slopes (..., 4, k)."""
-
-    slopes: npt.NDArray[np.float64]
-    method: str
-    rounding: float
-
-
-def slopes_of(light_at: LightAt, method: str) -> StokesSlopes:
-    """Return the slopes of the Stokes vector."""
+def slopes_of(light_at: LightAt, method: str) -> tuple[npt.NDArray[np.float64], str, float]:
+    """Return the slopes (..., 4, k) of the Stokes vector, how they were found, and rounding."""
     if method == "gradients":
         return _gradients(light_at)
     why = ""
@@ -273,13 +261,13 @@ def slopes_of(light_at: LightAt, method: str) -> StokesSlopes:
                 return _gradients(light_at)
             except ParameterError:
                 why = ", since JAX does not trace this path"
-    return StokesSlopes(slopes_by_differences(light_at), f"differences{why}", 1e-8)
+    return slopes_by_differences(light_at), f"differences{why}", 1e-8
 
 
-def _gradients(light_at: LightAt) -> StokesSlopes:
+def _gradients(light_at: LightAt) -> tuple[npt.NDArray[np.float64], str, float]:
     need("gradients", "jax")
     try:
-        return StokesSlopes(_slopes_by_jax(light_at), "gradients by JAX", 1e-12)
+        return _slopes_by_jax(light_at), "gradients by JAX", 1e-12
     except Exception as fault:  # noqa: BLE001 - an element of one's own may raise anything
         raise ParameterError(
             f"JAX does not trace this path, which raises {shown(fault)}; write method='differences'"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING, Any, Self
 from uuid import uuid4
@@ -137,7 +138,6 @@ class DerivedVariable(BackendArray):
         front = (len(lights),) if len(lights) > 1 else ()
         self.shape = (*front, *lights[0].grid.shape)
         self.dtype = lights[0].dtype
-        self.token = uuid4().hex
 
     def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
         basic = indexing.IndexingSupport.BASIC
@@ -154,6 +154,11 @@ class DerivedVariable(BackendArray):
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:
         # Light does not change.
         return self
+
+    @cached_property
+    def token(self) -> str:
+        """What tells it from others: random, as its numbers may not be there yet."""
+        return uuid4().hex
 
     def __dask_tokenize__(self) -> tuple[str, str]:
         return type(self).__name__, self.token

@@ -146,7 +146,10 @@ class DrawnSamples:
                 return results
             again = self._drawn(group, root, chunk, part, number)
             results = {name: np.where(bad, again[name], results[name]) for name in results}
-        raise ParameterError(_hardly_any([each.name for each in group]))
+        raise ParameterError(
+            f"hardly any sample of {listed([each.name for each in group])} is within the range; "
+            f"give a smaller uncertainty, or a value farther inside"
+        )
 
     def _drawn(
         self, group: Sequence[UncertainValue], root: Any, chunk: int, part: slice, number: int
@@ -178,13 +181,6 @@ def _groups(correlation: Numbers, places: Sequence[int]) -> list[list[int]]:
 
 def _inside(each: UncertainValue, samples: Any) -> Any:
     return each.allows(samples) & np.isfinite(samples)
-
-
-def _hardly_any(names: list[str]) -> str:
-    return (
-        f"hardly any sample of {listed(names)} is within the range; give a smaller uncertainty, "
-        f"or a value farther inside"
-    )
 
 
 class SampleMoments:

@@ -200,20 +200,22 @@ def _value(values: Any, spread: Any) -> str:
     if values.size != 1:
         return _span(values, "{:.4g}".format)
     value, one = float(values.item()), float(spread.item())
-    if not (math.isfinite(value) and math.isfinite(one)) or one <= 0.0:
-        return f"{value:.6g}"
-    places = 1 - math.floor(math.log10(float(f"{one:.1e}")))
-    if not 0 <= places <= 15:
-        return f"{value:.6g}"
-    return f"{value:.{places}f}"
+    places = _places(one) if math.isfinite(value) else -1
+    return f"{value:.{places}f}" if 0 <= places <= 15 else f"{value:.6g}"
 
 
 def _digits(number: float) -> str:
     """Write an uncertainty with two digits."""
     if number == 0.0 or not math.isfinite(number):
         return f"{number:g}"
-    places = 1 - math.floor(math.log10(float(f"{number:.1e}")))
-    return f"{number:.{places}f}" if 0 <= places <= 6 else f"{number:.1e}"
+    return f"{number:.{_places(number)}f}" if 0 <= _places(number) <= 6 else f"{number:.1e}"
+
+
+def _places(number: float) -> int:
+    """Return after how many decimal places the second digit of a number is; -1 if it has none."""
+    if not math.isfinite(number) or number <= 0.0:
+        return -1
+    return 1 - math.floor(math.log10(float(f"{number:.1e}")))
 
 
 def _share(shares: Any) -> str:

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.inputs import Inputs
-    from optipath.plan.plan import Plan
 
 
 _BYTES = 1100
@@ -58,8 +57,10 @@ def propagate(
     names = [n for n, value in arguments.items() if isinstance(value, tuple) and n not in exact]
     correlation, wrong = read_correlation(options.correlation, names)
     faults += options.faults() + wrong
-    detector, no_detector = _detector(plan, options.detector)
-    faults += no_detector
+    detector, names_of = "", tuple(plan.program.detectors)
+    with collecting(faults):
+        example = f"propagate(detector='{names_of[0]}', ...)"
+        detector = only("detector", names_of, example, options.detector)
     if faults:
         raise ParameterError(*faults)
     composer = options.composer
@@ -79,14 +80,6 @@ def propagate(
         light_at = replace(light_at, plan=exactly.compose(path))
     with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
         return _to_first_order(light_at, light, correlation, options)
-
-
-def _detector(plan: Plan, request: Any) -> tuple[str, list[str]]:
-    names = tuple(plan.program.detectors)
-    try:
-        return only("detector", names, f"propagate(detector='{names[0]}', ...)", request), []
-    except OptipathError as fault:
-        return "", list(fault.faults)
 
 
 def _to_first_order(
@@ -145,7 +138,7 @@ def read_uncertain(
     if not any(isinstance(value, tuple) for value in arguments.values()):
         faults.append(
             "nothing that is given has an uncertainty; give a value and its standard uncertainty, "
-            f"such as {_example(inputs)}"
+            f"such as {next(iter(inputs.open), 'delta')}=(0.8, 0.001)"
         )
     values = {**exact, **{each.name: each.value for each in uncertain}}
     try:
@@ -155,12 +148,6 @@ def read_uncertain(
         unread = {*arguments} - {*values}
         faults += [each for each in fault.faults if each.subject not in unread]
     return exact, uncertain, faults
-
-
-def _example(inputs: Inputs) -> str:
-    if not inputs.open:
-        return "delta=(0.8, 0.001), for a parameter of the path, which has none yet"
-    return f"{next(iter(inputs.open))}=(0.8, 0.001)"
 
 
 def _read(inputs: Inputs, name: str, arguments: tuple[Any, ...]) -> UncertainValue:
@@ -184,8 +171,12 @@ def _read(inputs: Inputs, name: str, arguments: tuple[Any, ...]) -> UncertainVal
 
 
 def _value(inputs: Inputs, name: str, value: Any) -> Any:
+    in_parts = (
+        f"parameter '{name}' is complex, and its parts have an uncertainty each; write "
+        f"op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
+    )
     if isinstance(value, Material):
-        raise ParameterError(_in_parts(name, "a Material"))
+        raise ParameterError(in_parts)
     check_known(f"propagate({name}=...)", value)
     for use in inputs.uses:
         if use.value.name == name and (doubt := use.doubt(value)):
@@ -197,15 +188,8 @@ def _value(inputs: Inputs, name: str, value: Any) -> Any:
             f"uncertainty; give it without one, {name}='none'"
         )
     if np.iscomplexobj(value):
-        raise ParameterError(_in_parts(name, "complex"))
+        raise ParameterError(in_parts)
     return np.asarray(value, np.float64)
-
-
-def _in_parts(name: str, kind: str) -> str:
-    return (
-        f"parameter '{name}' is {kind}, whose parts have an uncertainty each; write "
-        f"op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k"
-    )
 
 
 def _sigma(inputs: Inputs, name: str, sigma: Any) -> Any:
@@ -215,8 +199,7 @@ def _sigma(inputs: Inputs, name: str, sigma: Any) -> Any:
     numbers = numbers_for(what, sigma, lambda text: parse_quantity(text, dimension), ParameterError)
     array = array_of(what, numbers, ParameterError)
     if array.dtype.kind not in "iuf":
-        kind = "complex" if array.dtype.kind == "c" else "no number"
-        raise ParameterError(f"{what} is {kind}, {shown(sigma)}; give a number of 0 or more")
+        raise ParameterError(f"{what} is {shown(sigma)}; give a number of 0 or more")
     if np.any(bad := ~(np.isfinite(array) & (array >= 0.0))):
         result = format_quantity(float(array[bad].ravel()[0]), unit)
         raise ParameterError(
@@ -268,6 +251,7 @@ class PropagateOptions:
     def faults(self) -> list[str]:
         """Return what is wrong with them, a sentence each."""
         result = unknown("method", self.method, METHODS)
+        is_known = not result
         if self.composer is not None and not isinstance(self.composer, Composer):
             result.append(f"composer must be an op.Composer(...), not {shown(self.composer)}")
         if self.samples is not None and not is_whole(self.samples, _FEWEST, _MOST):
@@ -278,7 +262,7 @@ class PropagateOptions:
         if self.seed is not None:
             result += whole_number("seed", self.seed, 0)
         drawn = [name for name in ("samples", "seed") if getattr(self, name) is not None]
-        if drawn and not unknown("method", self.method, METHODS) and not self.draws:
+        if drawn and is_known and not self.draws:
             result.append(
                 f"method='{self.method}' draws no samples; leave {' and '.join(drawn)} out, or "
                 f"write method='monte-carlo'"
