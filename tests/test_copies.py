@@ -83,7 +83,6 @@ def test_an_object_of_a_public_class_equals_its_copies(name):
         PATH.trace(delta=[0.1, 0.2]),
         CHAIN.trace(a=0.1),
         CHAIN.trace(a=[0.1, 0.2]),
-        op.Light([1.0, 0.5, 0.0, 0.0], exponent=-5000),
         op.Light([1.0, 0.5, 0.0, 0.0], wavelength=5e-7),
     ],
 )

@@ -1,4 +1,4 @@
-"""Light itself: its numbers and exponent, how it is shown, and that it does not change."""
+"""Light itself: its numbers, how it is shown, and that it does not change."""
 
 import copy
 import pickle
@@ -53,49 +53,26 @@ def test_what_is_no_stokes_vector_is_refused(stokes):
         op.Light(stokes)
 
 
-def test_faint_light_keeps_all_but_its_plain_numbers():
-    light = op.Light([[2.0, 1.2, 0.0, 1.6], [0.0, 0.0, 0.0, 0.0]], exponent=[-5000, 0])
-    np.testing.assert_array_equal(light.stokes, 0.0)
+def test_faint_light_keeps_its_figures():
+    light = op.Light([[2e-300, 1.2e-300, 0.0, 1.6e-300], [0.0, 0.0, 0.0, 0.0]])
     np.testing.assert_allclose(light.normalized, [STATE, [np.nan] * 4])
     np.testing.assert_allclose(light.dop, [1.0, np.nan])
-    np.testing.assert_allclose(light.log10_intensity, [-4999 * np.log10(2), -np.inf])
-    faint = op.Light([1.0, 1.0, 0.0, 0.0], exponent=-5000)
-    crossed = op.Light([2.0, -2.0, 0.0, 0.0], exponent=-5001)
+    np.testing.assert_allclose(light.log10_intensity, [np.log10(2) - 300, -np.inf])
+    faint = op.Light([1e-300, 1e-300, 0.0, 0.0])
+    crossed = op.Light([1e-300, -1e-300, 0.0, 0.0])
     np.testing.assert_allclose((faint + crossed).normalized, X)
-    np.testing.assert_allclose((faint + op.Light([0.0] * 4)).normalized, [1.0, 1.0, 0.0, 0.0])
-    np.testing.assert_array_equal((faint + op.Light(X)).stokes, X)
+    np.testing.assert_allclose((faint + op.Light(X)).stokes, X, rtol=0, atol=1e-299)
     turned = faint.in_frame(op.Frame().turned(np.pi / 4))
     np.testing.assert_allclose(turned.normalized, [1.0, 0.0, -1.0, 0.0], rtol=0, atol=1e-15)
     halved = op.Mueller(np.diag([0.5] * 4)) @ faint
-    assert halved.log10_intensity == pytest.approx(-5001 * np.log10(2))
+    assert halved.log10_intensity == pytest.approx(np.log10(0.5) - 300)
     assert pickle.loads(pickle.dumps(faint)) == faint != op.Light([1.0, 1.0, 0.0, 0.0])
     dark = op.Mueller(np.diag([1e-200] * 4))
-    light = dark @ (dark @ op.Light(STATE))
-    assert light.log10_intensity == pytest.approx(-400)
-    np.testing.assert_allclose(light.normalized, STATE)
-
-
-def test_exponents_are_integers_that_broadcast_and_do_not_run_over():
-    for exponent, stokes, told in (
-        (0.5, X, "integer"),
-        (np.int64(-(2**62)), X, "2\\^40"),
-        ([1, 2], np.ones((3, 4)), "exponent"),
-    ):
-        with pytest.raises(op.ShapeError, match=told):
-            op.Light(stokes, exponent=exponent)
-    light = op.Light(X, exponent=[0, 0])
-    assert light.stokes.shape == light.normalized.shape == (2, 4)
-    assert light.dop.shape == light.log10_intensity.shape == (2,)
-    assert op.Light([0.5, 0.0, 0.0, 0.0], exponent=1) == op.Light(X)
-    assert op.Light([0.5, 0.0, 0.0, 0.0], exponent=2) != op.Light(X)
-    first, second = (op.Light(X, exponent=np.uint8(n)) for n in (3, 5))
-    assert (first + second).intensity == 40.0
+    assert (dark @ (dark @ op.Light(STATE))).log10_intensity == -np.inf
 
 
 def test_a_light_shows_what_makes_it_again_in_a_line_or_a_few():
     assert repr(op.Light([1, 0.5, 0, 0])) == "Light([1. , 0.5, 0. , 0. ])"
-    light = op.Light([1.0, 0.5, 0.0, 0.0], exponent=-10)
-    assert repr(light) == "Light([1. , 0.5, 0. , 0. ], exponent=-10)"
     assert "frame=Frame(x=(0.9" in repr(op.Light(X, op.Frame().turned(0.3)))
     many = repr(op.Light(np.ones((1000, 4)) * X))
     assert many.count("\n") < 6
@@ -137,7 +114,6 @@ LIGHTS = {
     "given": lambda: op.Light(STATE),
     "broadcast": lambda: op.Light(np.broadcast_to(STATE, (3, 4))),
     "float32": lambda: op.Light(np.array(STATE, np.float32)),
-    "faint": lambda: op.Light(STATE, exponent=-5000),
     "of a path": lambda: PATH.trace(i=1.0),
     "of a batch of paths": lambda: PATH.trace(i=[1.0, 2.0]),
     "one of a batch": lambda: PATH.trace(i=[1.0, 2.0])[1],
@@ -158,7 +134,7 @@ def test_components_may_be_scaled_in_place_and_the_arrays_of_light_are_read_only
         np.multiply(component, 0.0, out=component)
     np.testing.assert_array_equal(light.stokes, before)
     np.testing.assert_array_equal(light.intensity, before[..., 0])
-    for array in (light.stokes, np.asarray(light), light.mantissa, light.exponent):
+    for array in (light.stokes, np.asarray(light), light.noise):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 2
     assert np.array(light).flags.writeable

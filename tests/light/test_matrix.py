@@ -57,7 +57,7 @@ TOO_MUCH = op.Mueller(np.diag([3.0, 0.0, 0.0, 5.0]))
         (op.Mueller([[0.1, 0, 0, 0], [3, 0, 0, 0], [0] * 4, [0] * 4]), BRIGHT, "3000 %"),
         (op.Mueller(-np.eye(4)), BRIGHT, "intensity -1.0 is negative"),
         (op.Mueller(np.diag([0.0, 1, 1, 1])), BRIGHT, "polarised, and dark"),
-        (TOO_MUCH, 1e-300 * (1e-300 * BRIGHT), r"like \[1.0, .* 166.667 %"),
+        (TOO_MUCH, 1e-300 * BRIGHT, r"like \[1.0, .* 166.667 %"),
         (TOO_MUCH @ op.Rotator(0.3).mueller(), BRIGHT, "166.667 %"),
         (op.Rotator(0.3) @ TOO_MUCH, BRIGHT, "166.667 %"),
         (pickle.loads(pickle.dumps(TOO_MUCH)).reshape(1)[0], BRIGHT, "166.667 %"),

@@ -146,7 +146,7 @@ def test_no_component_is_off_by_more_than_the_noise(seed):
     assert off <= most <= noise.most(whole.reader.read({}))
 
 
-@rows("factor", [1e-310, 5e-324, 1e300])
+@rows("factor", [1e-200, 1e-30, 1e200])
 def test_light_that_comes_back_from_any_factor_has_its_noise_and_its_ellipse(factor):
     light = op.Light([1.0, 0.5, 0.0, 0.2])
     back = (light * factor) / factor
@@ -198,8 +198,8 @@ def test_what_is_computed_with_noise_is_not_refused():
     for again in (pickle.loads(pickle.dumps(noise)), copy.deepcopy(noise)):
         assert again == noise
     with pytest.raises(op.ValueFault, match=r"173\.205 %"):
-        op.Light([1.0, 1.0, 1.0, 1.0], exponent=-4000)
-    assert op.Light([1.0, 1.0, 1.0, 1.0], exponent=-4000, physical=False).dop > 1.7
+        op.Light([1e-300, 1e-300, 1e-300, 1e-300])
+    assert op.Light([1e-300, 1e-300, 1e-300, 1e-300], physical=False).dop > 1.7
 
 
 @rows(
@@ -213,14 +213,13 @@ def test_what_is_computed_with_noise_is_not_refused():
         ([1e300, 3e300, 0.0, 4e300], [1e300, 0.6e300, 0.0, 0.8e300]),
     ],
 )
-@rows("exponent", [0, -5000])
-def test_the_nearest_light_keeps_its_intensity_its_ellipse_and_its_frames(noisy, nearest, exponent):
-    found = op.Light(noisy, exponent=exponent, physical=False).nearest_physical()
-    assert op.Light(found.mantissa, exponent=exponent) == found
+def test_the_nearest_light_keeps_its_intensity_its_ellipse_and_its_frames(noisy, nearest):
+    found = op.Light(noisy, physical=False).nearest_physical()
+    assert op.Light(found.stokes) == found
     frame = op.Frame().turned([0.1, 0.2])
-    found = op.Light([noisy, noisy], frame, exponent, physical=False).nearest_physical()
-    np.testing.assert_allclose(found.mantissa, [nearest] * 2, rtol=1e-15)
-    assert (found.frame, found.exponent.tolist()) == (frame, [exponent] * 2)
+    found = op.Light([noisy, noisy], frame, physical=False).nearest_physical()
+    np.testing.assert_allclose(found.stokes, [nearest] * 2, rtol=1e-15)
+    assert found.frame == frame
 
 
 def test_light_that_jax_traces_is_not_judged_and_comes_near(jacobian):

@@ -102,10 +102,9 @@ def test_figures_and_the_angle_are_told_and_from_where_it_is_seen():
     ax.figure.draw_without_rendering()
     step = ax.transData.transform([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
     assert step[1, 0] - step[0, 0] == pytest.approx(step[2, 1] - step[0, 1])
-    # Light too faint for floats has its ellipse and its power of ten.
-    ax = ellipse(op.Light([1.0, 0.6, 0.0, 0.8], exponent=-332193))
+    ax = ellipse(op.Light([1e-300, 0.6e-300, 0.0, 0.8e-300]))
     assert len(curves_of(ax)) == 1
-    assert "S0 = 10^-100000" in plain(ax.get_title())
+    assert "S0 = 1e-300" in plain(ax.get_title())
 
 
 def test_each_of_several_lights_has_its_curve_its_colour_and_its_name_as_it_is():
@@ -199,8 +198,7 @@ def test_dark_infinite_and_unread_light_is_told_as_such_on_axes_from_0_to_1(ligh
     "light, power",
     [
         (op.Light([3e-300, 0.6e-300, 0.0, 1.5e-300]), "-300"),
-        (op.Light([3.0, 0.6, 0.0, 1.5], exponent=0) * 1e300, "300"),
-        (op.Light([0.75, 0.15, 0.0, 0.375], exponent=-3000), "-904"),
+        (op.Light([3.0, 0.6, 0.0, 1.5]) * 1e300, "300"),
     ],
 )
 def test_light_beyond_plain_numbers_is_in_powers_of_ten(light, power):
@@ -344,9 +342,8 @@ def test_states_are_named_at_their_places_and_points_are_the_stokes_parameters()
     np.testing.assert_allclose(places["H"] + places["V"], places["D"] + places["A"], atol=1e-12)
     light = op.Light([[2.0, 1.0, 0.0, 0.0], [5.0, 0.0, 3.0, 4.0]])
     np.testing.assert_allclose(points_of(poincare(light)), [[0.5, 0.0, 0.0], [0.0, 0.6, 0.8]])
-    faint = op.Light([2e-300, 1e-300, 0.0, 0.0]), op.Light([2.0, 1.0, 0.0, 0.0], exponent=-9999)
-    for light in faint:
-        np.testing.assert_allclose(points_of(poincare(light)), [[0.5, 0.0, 0.0]])
+    faint = op.Light([2e-300, 1e-300, 0.0, 0.0])
+    np.testing.assert_allclose(points_of(poincare(faint)), [[0.5, 0.0, 0.0]])
 
 
 def test_trails_have_hollow_points_behind_gaps_a_labelled_colour_bar_and_a_second_one_beside():

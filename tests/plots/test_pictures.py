@@ -84,7 +84,6 @@ NAMED = ("S0", "S1", "S2", "S3", "DoP", "DoLP")
 WAVES = {"x_values": "400 nm:700 nm:9", "y_values": "0 deg:90 deg:9"}
 ROW = op.Light([[1.0, np.cos(a), np.sin(a), 0.0] for a in range(6)])
 UNREAD, FAINT = op.Light([1.0, NAN, NAN, NAN]), op.Light([1e-300, 0.0, 0.6e-300, 0.3e-300])
-FAINTER = op.Light([1.0, 0.6, 0.0, 0.8], exponent=-332193)
 STATES = op.Light([[1, -0.6, 0, 0.8], [1, -0.2, -0.9, 0.1], [0, 0, 0, 0], [1, 0, 0, 0]])
 ANGLES = np.radians(np.arange(0.0, 181.0, 10.0))
 TRAIL = op.Retarder(ANGLES, "10 deg") @ op.Light([1.0, 0.0, 0.95, 0.0])
@@ -130,7 +129,7 @@ DRAWN = [
     ),
     (1, "reflection", (6.4, 4.4), [(1.00000001, {"outside": 1.00000002})]),
     (0, "reflection", (6.4, 4.4), [("gold", {"outside": "water", "wavelength": "516 nm"})]),
-    (2, "ellipse", (5.0, 5.8), [FAINTER, *LIGHTS.values(), *OTHERS, UNREAD, FAINT]),
+    (2, "ellipse", (5.0, 5.8), [*LIGHTS.values(), *OTHERS, UNREAD, FAINT]),
     (1, "ellipse", (5.0, 7.3), [LIGHTS]),
     (1, "stokes", (5.6, 4.4), [(PATH, PUBLISHED), case_of("achromatic-rhomb", "green"), TWO]),
     (0, "stokes", (5.6, 4.4), [case_of("npgr026", "7"), {"b" * 60: ROW[1], "$x_2$": ROW[2]}]),
@@ -138,7 +137,7 @@ DRAWN = [
         1,
         "stokes",
         (5.6, 4.4),
-        [(FAINT, {"published": [1e-300, 0, 5e-301, NAN]}), UNREAD, FAINTER],
+        [(FAINT, {"published": [1e-300, 0, 5e-301, NAN]}), UNREAD],
     ),
     (1, "mueller", (5.2, 4.6), MATRICES),
     (1, "poincare", (5.4, 5.6), [STATES, TRAIL[0], TRAIL, TRAIL[:9]]),

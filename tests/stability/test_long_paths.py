@@ -24,7 +24,7 @@ def both_ways(path, **options):
 
 def excess(light):
     """DoP - 1 of what was computed, without rounding of its own."""
-    s0, *rest = map(mpmath.mpf, light.mantissa.astype(float).tolist())
+    s0, *rest = map(mpmath.mpf, light.stokes.astype(float).tolist())
     with mpmath.workdps(40):
         return float(mpmath.sqrt(sum(part * part for part in rest)) / s0 - 1)
 
@@ -35,9 +35,8 @@ def excess(light):
 def test_no_path_polarises_by_more_than_100_percent(index, incidence, count, dtype):
     path = chain([op.Interface(index, incidence, azimuth=0.3)] * count, POLARISED)
     for light in both_ways(path, dtype=dtype):
-        assert light.mantissa[0] > 0.0
         assert light.intensity >= 0.0
-        assert excess(light) <= np.finfo(dtype).eps
+        assert light.intensity == 0.0 or excess(light) <= np.finfo(dtype).eps
 
 
 @pytest.mark.parametrize("count", [1000, slow(100_000)])
@@ -94,7 +93,7 @@ def test_no_intensity_is_negative_in_float32():
     for several in ([*elements, *crossed], [*crossed, *elements]):
         for light in both_ways(chain(several, POLARISED), dtype="float32"):
             assert light.stokes.dtype == np.float32
-            assert np.all(light.mantissa[..., 0] >= 0.0)
+            assert np.all(light.stokes[..., 0] >= 0.0)
 
 
 def test_s1_near_the_normal_keeps_its_law_where_amplitude_loses_all_of_it():
@@ -118,7 +117,7 @@ def test_light_that_is_nulled_is_not_negative(element, turn, dtype, most):
     axes = np.random.default_rng(0).uniform(-4, 4, 50_000)
     path = chain([op.Polarizer(axes), element, op.Polarizer(axes + np.pi / 2 + turn)])
     for light in both_ways(path, dtype=dtype):
-        assert np.all(light.mantissa[:, 0] >= 0.0)
+        assert np.all(light.stokes[:, 0] >= 0.0)
         assert np.all(light.intensity <= most)
 
 

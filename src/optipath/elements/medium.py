@@ -63,10 +63,9 @@ class Medium(Element, kind="medium"):
     the exponential of what the medium does per length (R. C. Jones, J. Opt. Soc. Am. 38, 671
     (1948); Azzam, J. Opt. Soc. Am. 68, 1756 (1978); `docs/media.md`).
 
-    However faint the light becomes, its polarisation and `Light.log10_intensity` are right up to
-    an absorption times length of 2000, or 150 in float32; soon beyond, the light is dark. Two
-    Media one after the other go twice as far. Beside dichroism it is up to a dichroism times
-    length of 300, or 40 in float32.
+    Behind an absorption times length of some 700, or 85 in float32, floats end and light is dark.
+    Up to there it is right, beside dichroism up to a dichroism times length of 300, or 40 in
+    float32.
 
     Parameters
     ----------

@@ -151,13 +151,10 @@ def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
     except ParameterError:
         shape = (len(exact), 4)
         return Errors(np.full(shape, np.inf), np.full(len(exact), np.inf))
-    result = np.concatenate([lights[end].mantissa.reshape(-1, 4) for end in ends])
-    powers = np.concatenate([lights[end].exponent.ravel() for end in ends])
+    result = np.concatenate([lights[end].stokes.reshape(-1, 4) for end in ends])
     unread = np.isnan(result)
     result = np.where(unread, 0, result)
-    exact = [
-        _comparable(*each) for each in zip(exact, powers.tolist(), (~unread).tolist(), strict=True)
-    ]
+    exact = [_as_read(*each) for each in zip(exact, unread.tolist(), strict=True)]
     off = errors(result, exact, dtype, against_first=True)
     # Light that a precision cannot hold is lost, however small the step of its last place.
     least = exactly(np.finfo(dtype).tiny)
@@ -168,12 +165,10 @@ def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
     return off
 
 
-def _comparable(light: ExactLight, power: int, read: list[bool]) -> ExactLight:
-    """Return a light without its exponent, 0 in components that a detector does not read."""
-    parts = zip(light.stokes, read, strict=True)
-    # A product would be rounded to the digits that mpmath works with outside of references.
-    scaled = (mpmath.ldexp(part, -power) if seen else mpmath.mpf(0) for part, seen in parts)
-    return light._replace(stokes=tuple(scaled))
+def _as_read(light: ExactLight, unread: list[bool]) -> ExactLight:
+    """Return a light that is 0 in components that a detector does not read."""
+    parts = zip(light.stokes, unread, strict=True)
+    return light._replace(stokes=tuple(mpmath.mpf(0) if not_read else x for x, not_read in parts))
 
 
 def worst_and_median(numbers: Any) -> dict[str, float]:

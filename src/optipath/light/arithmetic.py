@@ -8,54 +8,14 @@ import numpy as np
 
 from optipath.errors import LightError, shown
 from optipath.light.array_axes import ArrayAxes
-from optipath.light.underflow import folded, normalise_exponent, rounded_to, times_two_to
 from optipath.values.arrays import as_argument, locked
 from optipath.values.jax_values import is_traced, known, namespace
-from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from optipath.values.precision import Array
 
 
 _CURE = "light adds up, light + light, and is taken times numbers >= 0, 0.5 * light, light / 2"
-
-
-def sum_of(one: Any, exponent: Any, two: Any, other_exponent: Any) -> tuple[Any, Any]:
-    """Return the sum of two lights (..., 4), as a mantissa and its exponent.
-
-    >>> total, power = sum_of(np.eye(4)[0], 0, np.eye(4)[0], 1)
-    >>> print(total, power)
-    [1.5 0.  0.  0. ] 1
-    """
-    # Dark light has no exponent of its own.
-    mine = np.where(one[..., 0] == 0.0, other_exponent, exponent)
-    theirs = np.where(two[..., 0] == 0.0, exponent, other_exponent)
-    power = np.maximum(mine, theirs)
-    with np.errstate(over="ignore", invalid="ignore"):
-        total = times_two_to(one, exponent - power)
-        total = total + times_two_to(two, other_exponent - power)
-    return rounded_to(coarser(one, two), total, power)
-
-
-def product_of(
-    numbers: Any, exponent: Any, factor: Any, done: Callable[[Any, Any], Any]
-) -> tuple[Any, Any, Any, Any]:
-    """Return light (..., 4) times or divided by numbers: mantissa, exponent, and the numbers.
-
-    >>> product, power, *_ = product_of(np.eye(4)[0], 0, np.array(6.0), np.multiply)
-    >>> print(product, power)
-    [6. 0. 0. 0.] 0
-    """
-    batch = np.broadcast_shapes(numbers.shape[:-1], factor.shape)
-    # The power of two is the exponent's, so that no factor costs digits.
-    share, power = np.frexp(factor)
-    stokes, exponent = normalise_exponent(numbers, exponent)
-    stokes = done(stokes, share[..., np.newaxis]).astype(stokes.dtype, copy=False)
-    share, power = (share, power) if done is np.multiply else (1.0 / share, -power)
-    stokes, exponent = folded(stokes, np.broadcast_to(exponent + power, batch))
-    return stokes, exponent, share, power
 
 
 def factor_of_light(factor: Any, *, dark: bool) -> Any:

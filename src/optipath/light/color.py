@@ -10,7 +10,6 @@ import numpy as np
 from optipath.errors import ColourWarning, LightError, ValueFault, shown, unknown
 from optipath.light.integration import spectral_axis, weighted_sum
 from optipath.light.light import Light
-from optipath.light.underflow import times_two_to
 from optipath.materials.illuminants import NANOMETRES
 from optipath.materials.observer import LUMENS_PER_WATT, Observer, observer_called
 from optipath.materials.spectrum import Spectrum
@@ -127,7 +126,7 @@ def srgb_of(
     observer, outside = seen
     xyz = tristimulus(light, white, observer, outside)
     if adapt:
-        xyz = adapted(xyz, white_sums(light, white, observer_called(observer), outside)[0])
+        xyz = adapted(xyz, white_sums(light, white, observer_called(observer), outside))
     linear = times(FROM_XYZ, xyz)
     result = Srgb(linear, linear)
     if out_of_gamut == "keep":
@@ -197,32 +196,25 @@ _ROUNDING = 1e-6
 def tristimulus(light: Light, white: Any, observer: str, outside: str) -> Array:
     """Return X, Y and Z of spectral light; see `Light.to_xyz`. Shape: returns (..., 3)."""
     standard = observer_called(observer)
-    total, power = _sums(light, standard, outside)
+    total = _sums(light, standard, outside)
     warn_of(light, standard, outside)
     if white is None:
-        absolute: Array = LUMENS_PER_WATT * _unscaled(total, power)
+        absolute: Array = LUMENS_PER_WATT * total
         return absolute
-    of_white, power_of_white = white_sums(light, white, standard, outside)
+    of_white = white_sums(light, white, standard, outside)
     check_broadcast({"light": total.shape[:-1], "white": of_white.shape[:-1]})
-    if is_traced(total) or is_traced(of_white):
-        relative: Array = _unscaled(total, power) / _unscaled(of_white, power_of_white)[..., 1:2]
-        return relative
-    return times_two_to(total / of_white[..., 1:2], power - power_of_white)
+    relative: Array = total / of_white[..., 1:2]
+    return relative
 
 
-def _unscaled(total: Any, power: Any) -> Any:
-    return total if is_traced(total) else times_two_to(total, power)
-
-
-def white_sums(light: Light, white: Any, observer: Observer, outside: str) -> tuple[Any, Any]:
-    """Return X, Y and Z (..., 3) of white, as a mantissa and its exponent of two."""
+def white_sums(light: Light, white: Any, observer: Observer, outside: str) -> Any:
+    """Return X, Y and Z (..., 3) of white."""
     if isinstance(white, Light):
-        total, power = _sums(white, observer, outside)
+        total = _sums(white, observer, outside)
     elif isinstance(white, (Spectrum, CurveValue)):
         grid, _ = spectral_axis(light)
         values = np.asarray(white.at(grid), np.float64)[:, np.newaxis]
-        weights = _weights(grid, observer, outside)
-        total, power = weighted_sum(values, np.zeros(len(grid), np.int64), weights, 0)
+        total = weighted_sum(values, _weights(grid, observer, outside), 0)
     else:
         raise ValueFault(
             f"white is {shown(white)}, which has no spectrum; give the light of the same path "
@@ -230,14 +222,14 @@ def white_sums(light: Light, white: Any, observer: Observer, outside: str) -> tu
         )
     if not is_traced(total) and not np.all(total[..., 1] > 0.0):
         raise ValueFault("white is dark (Y = 0), and nothing is relative to that")
-    return total, power
+    return total
 
 
-def _sums(light: Light, observer: Observer, outside: str) -> tuple[Any, Any]:
-    """Return X, Y and Z as sums, and the exponent of the power of two times these."""
+def _sums(light: Light, observer: Observer, outside: str) -> Any:
+    """Return X, Y and Z (..., 3) as sums over the wavelengths."""
     grid, axis = spectral_axis(light)
     weights = _weights(grid, observer, outside)
-    return weighted_sum(known(light.mantissa)[..., :1], light.exponent, weights, axis)
+    return weighted_sum(known(light.stokes)[..., :1], weights, axis)
 
 
 def _weights(grid: Array, observer: Observer, outside: str) -> Array:

@@ -27,7 +27,6 @@ import numpy as np
 from optipath.errors import ValueFault, shown
 from optipath.kernels.carriers.structures import FROM_MUELLER, TO_MUELLER
 from optipath.light.polarization_state import norm
-from optipath.light.underflow import normalise_exponent, times_two_to
 from optipath.values.arrays import array_of
 from optipath.values.jax_values import check_known, known
 
@@ -69,12 +68,13 @@ _LAST = np.array([False, False, True])
 
 def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
     """Return the depolarizer, the retarder and the diattenuator, of shape (..., 4, 4) each."""
-    parts, power = scaled(matrix)
-    m00 = parts[..., :1, :1]
-    lit = np.abs(m00) > _DARK
-    unit = np.where(lit, parts / np.where(lit, m00, 1.0), np.eye(4))
+    numbers, finite = finite_numbers(matrix)
+    m00 = numbers[..., :1, :1]
+    lit = np.abs(m00) > _DARK * np.abs(numbers).max(axis=(-1, -2), keepdims=True)
+    whole = np.where(lit, m00, 1.0)
+    unit = np.where(lit, numbers / whole, np.eye(4))
     polarizance = unit[..., 1:, 0]
-    rounding = _rounding(matrix, np.where(lit, m00, 1.0)[..., 0], power)
+    rounding = _rounding(matrix, whole[..., 0])
     pure, root, turn = jones_parts(unit, rounding)
     size, d = size_and_direction(unit[..., 0, 1:])
     ideal = np.where(pure, root <= rounding, _is_polariser(unit, size, rounding))
@@ -95,21 +95,18 @@ def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
     diattenuator = _bordered(D * d, D * d, _diattenuation(root, d))
     depolarizer = _bordered(none, np.where(ideal | pure, 0.0, p), depolarizing)
     retarder = _bordered(none, none, turn)
-    return (
-        unscaled(matrix, depolarizer, 0),
-        unscaled(matrix, retarder, 0),
-        unscaled(matrix, m00 * diattenuator, power),
-    )
+    parts = depolarizer, retarder, m00 * diattenuator
+    return tuple(np.where(finite, part, np.nan) for part in parts)  # type: ignore[return-value]
 
 
-def _rounding(matrix: Any, m00: Array, power: Array) -> Array:
+@np.errstate(over="ignore")
+def _rounding(matrix: Any, m00: Array) -> Array:
     """Return what may be rounding in matrices over M00, shape (..., 1).
 
     Rounding of the parts, which let 1 through at most, is larger against an M00 that they block.
     """
     least = max(_ROUNDING, 64.0 * rounding_of(matrix))
-    blocked = times_two_to(1.0 / np.abs(m00), -power)
-    return np.clip(least * blocked, least, max(least, _MOST))
+    return np.clip(least / np.abs(m00), least, max(least, _MOST))
 
 
 def _is_polariser(unit: Array, size: Array, rounding: Array) -> Array:
@@ -266,25 +263,16 @@ def turn_of(retarder: Any) -> tuple[Array, Array]:
     return axis, np.asarray(2.0 * np.arctan2(sine, column[..., 0]))
 
 
-def scaled(matrix: Any) -> tuple[Array, Array]:
-    """Return matrices over a power of two as doubles, and its exponent; 0 with NaN entries.
+def finite_numbers(matrix: Any) -> tuple[Array, Array]:
+    """Return matrices as doubles, 0 where an entry is not finite, and which are (..., 1, 1).
 
-    >>> [part.tolist() for part in scaled(np.diag([6.0, 3.0, 3.0, 3.0]))][1]
-    3
+    >>> finite_numbers(np.diag([np.nan, 1.0, 1.0, 1.0]))[0].any()
+    np.False_
     """
     check_known("what a Mueller matrix is made of (by its coherency, or Lu and Chipman)", matrix)
-    with np.errstate(over="ignore"):
-        flat = np.asarray(matrix, np.float64).reshape(*matrix.shape[:-2], 16)
-    parts, power = normalise_exponent(np.where(_known(flat), flat, 0.0), 0)
-    return parts.reshape(matrix.shape), power
-
-
-def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
-    """Return parts (..., 4, n) found for scaled matrices in the matrices' own scale."""
-    *batch, rows, columns = parts.shape
-    result = times_two_to(parts.reshape(*batch, rows * columns), power)
-    flat = np.asarray(matrix).reshape(*matrix.shape[:-2], 16)
-    return np.where(_known(flat), result, np.nan).reshape(parts.shape)
+    numbers = np.asarray(matrix, np.float64)
+    finite = np.isfinite(numbers).all(axis=(-1, -2), keepdims=True)
+    return np.where(finite, numbers, 0.0), finite
 
 
 def rounding_of(matrix: Any) -> float:
@@ -297,10 +285,6 @@ def rounding_of(matrix: Any) -> float:
     return max(float(np.finfo(dtype).eps), 2.0**-52)
 
 
-def _known(flat: Array) -> Array:
-    return np.asarray(np.isfinite(flat).all(axis=-1, keepdims=True))
-
-
 # Of double precision.
 _TOLERANCE = 1e-9
 
@@ -311,17 +295,15 @@ def coherency(matrix: Array) -> Array:
     >>> coherency(np.diag([1.0, 1.0, -1.0, -1.0])).real.diagonal()
     array([0., 1., 0., 0.])
     """
-    parts, power = scaled(matrix)
-    result = gathered(parts)
-    real, imaginary = (unscaled(matrix, part, power) for part in (result.real, result.imag))
-    return real + 1j * imaginary
+    numbers, finite = finite_numbers(matrix)
+    return np.where(finite, gathered(numbers), complex(np.nan, np.nan))
 
 
 def eigenvalues(matrix: Array) -> Array:
     """Return the eigenvalues of the coherency matrices, shape (..., 4), the largest first."""
-    parts, power = scaled(matrix)
-    result = np.linalg.eigvalsh(gathered(parts))[..., ::-1]
-    return unscaled(matrix, result[..., np.newaxis], power)[..., 0]
+    numbers, finite = finite_numbers(matrix)
+    result = np.linalg.eigvalsh(gathered(numbers))[..., ::-1]
+    return np.where(finite[..., 0], result, np.nan)
 
 
 def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
@@ -339,9 +321,7 @@ def lack(matrix: Array) -> Array:
     >>> print(lack(np.eye(4)), lack(np.diag([1.0, 1.0, 1.0, -1.0])))
     0.0 1.0
     """
-    # Near 1, where the largest neither runs over nor fades.
-    parts, _ = scaled(matrix)
-    values = eigenvalues(unscaled(matrix, parts, 0))
+    values = eigenvalues(matrix)
     largest, below = values[..., 0], np.maximum(-values[..., 3], 0.0)
     share = below / np.where(largest > 0.0, largest, 1.0)
     return np.asarray(np.where((below > 0.0) & (largest <= 0.0), np.inf, share))
@@ -363,12 +343,12 @@ def nearest_physical(matrix: Array) -> Array:
     >>> nearest_physical(np.diag([1.0, 1.0, 1.0, -1.0])).diagonal().round(12)
     array([ 1.5,  0.5,  0.5, -0.5])
     """
-    parts, power = scaled(matrix)
-    values, vectors = np.linalg.eigh(gathered(parts))
+    numbers, finite = finite_numbers(matrix)
+    values, vectors = np.linalg.eigh(gathered(numbers))
     stored = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
     positive = stored @ np.swapaxes(vectors.conj(), -1, -2)
-    result = (positive.reshape(*parts.shape[:-2], 16) @ TO_MUELLER).real
-    return unscaled(matrix, result.reshape(parts.shape), power)
+    result = (positive.reshape(*numbers.shape[:-2], 16) @ TO_MUELLER).real
+    return np.where(finite, result.reshape(numbers.shape), np.nan)
 
 
 def _tolerance(argument: Any, matrix: Array) -> float:
@@ -386,7 +366,7 @@ def _tolerance(argument: Any, matrix: Array) -> float:
 
 
 def gathered(parts: Array) -> Array:
-    """Return the coherency matrices of matrices whose entries are numbers near 1."""
+    """Return the coherency matrices of matrices of finite entries."""
     flat = parts.reshape(*parts.shape[:-2], 16) @ FROM_MUELLER
     return np.asarray(flat.reshape(parts.shape))
 

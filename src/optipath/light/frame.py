@@ -12,7 +12,6 @@ from optipath.kernels.catalog import ALIGN
 from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.vectors import Vector, cross, dot
-from optipath.light.underflow import normalise_exponent
 from optipath.materials.quantities import ANGLE
 from optipath.values.angles import warn_of_degrees
 from optipath.values.arrays import Unchanging, array_of, as_argument, check_broadcast, read_only
@@ -473,4 +472,4 @@ def _vector_argument(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]
     vector = vectors(what, value)
     if not np.all(np.any(vector, axis=-1)):
         raise FrameError(f"{what} has no length; give a vector with a direction of its own")
-    return normalise_exponent(vector, 0)[0]
+    return np.ldexp(vector, -np.frexp(np.max(np.abs(vector), axis=-1, keepdims=True))[1])

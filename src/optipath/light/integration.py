@@ -8,7 +8,6 @@ import numpy as np
 
 from optipath.errors import LightError, ShapeError, ValueFault, listed, shown
 from optipath.light.on_demand import rounding
-from optipath.light.underflow import folded, normalise_exponent, rounded_to, times_two_to
 from optipath.materials.illuminants import NANOMETRES, grid_fault, grid_widths
 from optipath.materials.spectrum import check_response
 from optipath.values.arrays import as_argument
@@ -61,7 +60,7 @@ def _varies(numbers: Array, axis: int) -> bool:
     return bool(np.any(numbers != numbers.take([0], axis)))
 
 
-def integrated(light: Light, response: Any = None, edges: Any = None) -> tuple[Any, Any, Any, Any]:
+def integrated(light: Light, response: Any = None, edges: Any = None) -> tuple[Any, Any, Any]:
     """Return light added up over its wavelengths, as `Light.of` takes it. Shape stokes (..., 4)."""
     ends = None if edges is None else _edges(edges)
     one_bin = ends is not None and ends.size == 2
@@ -69,13 +68,10 @@ def integrated(light: Light, response: Any = None, edges: Any = None) -> tuple[A
     weights = grid_widths(grid) if ends is None else _widths_of(ends, grid)
     if response is not None:
         weights = weights * _response_at(response, grid)
-    numbers = light.mantissa
-    total, power = weighted_sum(known(numbers), light.exponent, weights[:, np.newaxis], axis)
-    frame = _frame_without(light, axis)
-    if is_traced(total):
-        return total.astype(coarser(numbers)), frame, power, None
-    total, power = folded(*rounded_to(coarser(numbers), total, power))
-    return total, frame, power, (noise_of_sum, light, weights, axis)
+    numbers = known(light.stokes)
+    total = weighted_sum(numbers, weights[:, np.newaxis], axis).astype(coarser(numbers))
+    noise = None if is_traced(total) else (noise_of_sum, light, weights, axis)
+    return total, _frame_without(light, axis), noise
 
 
 def _along_bins(light: Light, *, one_bin: bool) -> tuple[Light, Array, int]:
@@ -94,47 +90,32 @@ def _along_bins(light: Light, *, one_bin: bool) -> tuple[Light, Array, int]:
     return light[np.newaxis], wavelength.ravel()[:1], 0
 
 
-def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tuple[Any, Any]:
-    """Return sums over an axis of numbers (..., k) times weights (n, k), however faint they are.
+def weighted_sum(numbers: Any, weights: Any, axis: int) -> Any:
+    """Return sums over an axis of numbers (..., k) times weights (n, k).
 
     By halves, so that sums do not depend on other axes.
 
-    >>> weighted_sum(np.ones((3, 1)), np.zeros(3, int), np.array([[1.0], [2.0], [1.0]]), 0)
-    (array([2.]), array(1))
+    >>> weighted_sum(np.ones((3, 1)), np.array([[1.0], [2.0], [1.0]]), 0)
+    array([4.])
     """
-    shape = [1] * (exponent.ndim + 1)
+    shape = [1] * numbers.ndim
     shape[axis], shape[-1] = weights.shape
-    if is_traced(numbers) or is_traced(weights):
-        return _sum_by_halves(
-            namespace(weights * numbers).moveaxis(numbers * weights.reshape(shape), axis, 0)
-        ), 0
-    parts, own = normalise_exponent(numbers, exponent)
-    # Dark light has no exponent of its own.
-    dark = ~np.any(np.abs(parts) > 0.0, axis=-1)
-    least = np.iinfo(np.int64).min // 4
-    power = np.max(np.where(dark, least, own), axis=axis)
-    power = np.where(power == least, 0, power)
-    shift = np.where(dark, 0, own - np.expand_dims(power, axis))
-    terms = times_two_to(parts, shift) * weights.reshape(shape)
-    return _sum_by_halves(np.moveaxis(terms, axis, 0)), power
-
-
-def _sum_by_halves(terms: Any) -> Any:
-    xp = namespace(terms)
+    products = numbers * weights.reshape(shape)
+    xp = namespace(products)
+    terms = xp.moveaxis(products, axis, 0)
     while len(terms) > 1:
         half = len(terms) // 2
         terms = xp.concatenate([terms[:half] + terms[half : 2 * half], terms[2 * half :]])
     return terms[0]
 
 
-def noise_of_sum(light: Light, weights: Array, axis: int, stokes: Array, exponent: Array) -> Array:
+@np.errstate(over="ignore", under="ignore")
+def noise_of_sum(light: Light, weights: Array, axis: int, stokes: Array) -> Array:
     """Return the noise (...) in light that has been added up."""
     shape = [1] * light.ndim
     shape[axis] = len(weights)
-    floor = light.noise_floor + rounding(known(light.mantissa))
-    with np.errstate(over="ignore", under="ignore"):
-        share = np.ldexp(floor, light.exponent - np.expand_dims(exponent, axis))
-        results: Array = np.sum(share * np.abs(weights).reshape(shape), axis=axis)
+    floor = light.noise + rounding(known(light.stokes))
+    results: Array = np.sum(floor * np.abs(weights).reshape(shape), axis=axis)
     return results.astype(stokes.dtype)
 
 

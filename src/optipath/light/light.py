@@ -15,11 +15,9 @@ from optipath.light.arithmetic import (
     factor_of_light,
     handed_out,
     numbers_within,
-    product_of,
     refuse,
     refuse_call,
     stacked_components,
-    sum_of,
 )
 from optipath.light.array_axes import ArrayAxes, each_number, why_refused
 from optipath.light.conventions import EllipsometricAngles, changed_stokes
@@ -45,7 +43,6 @@ from optipath.light.polarization_state import (
     where_there,
 )
 from optipath.light.printed import text_of
-from optipath.light.underflow import exponent_argument, folded, same_numbers, times_two_to
 from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array
 from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.precision import coarser
@@ -77,10 +74,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     frame : Frame, optional
         The frame the components refer to; the unit frame by default. That of light from a path
         placed relatively is the one that leaves the last element, called the unit frame.
-    exponent : int or array_like of int, shape (...), optional
-        Light too faint, or bright, for a float is ``stokes`` times two to this power. The
-        attribute `stokes` is 0, or infinite, then, but `normalized`, `dop` and `log10_intensity`
-        are right all the same, and `mantissa` keeps what was given.
     physical : bool, optional
         Whether what no light can be is refused; False takes measured noise as it is. What is
         computed, by a path or from other light, is never refused, nor is what JAX traces.
@@ -93,18 +86,13 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         If it is of negative intensity, polarised by more than 100 % beyond the rounding of
         its precision, or not finite.
     ShapeError
-        If the last axis has not four elements, or the exponent is no integer.
-    ParameterError
-        If there is an exponent, and JAX traces it or the Stokes vector.
+        If the last axis has not four elements.
 
     Examples
     --------
     >>> light = Light([1.0, 1.0, 0.0, 0.0])
     >>> light.in_frame(Frame().turned(np.pi / 4)).stokes.round(12)
     array([ 1.,  0., -1.,  0.])
-    >>> faint = Light([1.0, 0.6, 0.0, 0.8], exponent=-332193)
-    >>> print(faint.intensity, faint.log10_intensity.round(), faint.normalized)
-    0.0 -100000.0 [1.  0.6 0.  0.8]
     """
 
     _kind, _several = "light", "lights"
@@ -116,7 +104,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         self,
         stokes: Any,
         frame: Frame | None = None,
-        exponent: Any = 0,
         *,
         physical: bool = True,
         wavelength: Any = None,
@@ -124,25 +111,15 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         frame = Frame() if frame is None else frame
         if not isinstance(frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {shown(frame)}")
-        mantissa = real_array("a Stokes vector", stokes, (4,))
-        exponent = exponent_argument(exponent)
-        batch = check_broadcast(
-            {"stokes": mantissa.shape[:-1], "exponent": exponent.shape, "frame": frame.z.shape[:-1]}
-        )
-        exponent = np.broadcast_to(exponent.astype(np.int64), batch)
-        if mantissa.shape[:-1] != batch:
-            xp = namespace(mantissa)
-            mantissa = xp.broadcast_to(mantissa, (*batch, 4))
+        stokes = real_array("a Stokes vector", stokes, (4,))
+        batch = check_broadcast({"stokes": stokes.shape[:-1], "frame": frame.z.shape[:-1]})
+        if stokes.shape[:-1] != batch:
+            stokes = namespace(stokes).broadcast_to(stokes, (*batch, 4))
         # Whoever has given an array may change it.
-        mantissa = mantissa if is_jax(mantissa) else read_only(mantissa, widened=False)
-        if exponent.any():
-            check_known("light with an exponent", mantissa)
-        if physical and not is_traced(mantissa):
-            check_physical(known(mantissa))
-        plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
-        self.__dict__.update(
-            stokes=locked(plain), frame=frame, exponent=exponent, mantissa=mantissa
-        )
+        stokes = stokes if is_jax(stokes) else read_only(stokes, widened=False)
+        if physical and not is_traced(stokes):
+            check_physical(known(stokes))
+        self.__dict__.update(stokes=stokes, frame=frame)
         if not physical:
             self.__dict__["_measured"] = True
         if wavelength is not None:
@@ -153,7 +130,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         cls,
         stokes: Any,
         frame: Frame | Callable[[], Frame],
-        exponent: Any = 0,
         noise: Any = None,
         *,
         measured: bool = False,
@@ -167,8 +143,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             S0, S1, S2 and S3 each by itself, or an array of shape (..., 4).
         frame : Frame or callable
             The frame, or what returns it when somebody asks for it.
-        exponent : int or array_like, optional
-            Of the power of two times the Stokes vectors.
         noise : ndarray of shape (...), or tuple, optional
             What of the vectors is noise, as `noise_in` takes it.
         measured : bool, optional
@@ -183,15 +157,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         light = cls.__new__(cls)
         own = light.__dict__
-        if isinstance(exponent, int) and not exponent:
-            own["_stokes"] = stokes
-        else:
-            mantissa = stokes
-            if type(stokes) is tuple:  # As it was carried, be it faint or not.
-                mantissa, exponent = folded(stacked_components(stokes), exponent)
-            exponent = np.broadcast_to(np.asarray(exponent), mantissa.shape[:-1])
-            plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
-            own.update(stokes=locked(plain), mantissa=locked(mantissa), exponent=exponent)
+        own["_stokes"] = stokes
         own["frame" if type(frame) is Frame else "_frame"] = frame
         if noise is not None:
             own["_noise"] = noise
@@ -216,8 +182,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         frame : Frame, optional
             The frame of the light, its x along s where the convention has x along p.
         **options
-            What `Light` takes besides: the exponent of faint light, ``physical=False`` for
-            measured noise.
+            What `Light` takes besides: ``physical=False`` for measured noise.
 
         Returns
         -------
@@ -249,19 +214,9 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     @cached_property
     def stokes(self) -> npt.NDArray[Any]:
         """The Stokes vectors, of shape (..., 4); read-only."""
-        return self.mantissa
-
-    @cached_property
-    def mantissa(self) -> npt.NDArray[Any]:
-        """The Stokes vectors over two to the power of `exponent`, of shape (..., 4)."""
         stokes = self.__dict__["_stokes"]
         stacked = stacked_components(stokes) if type(stokes) is tuple else stokes
         return locked(stacked)  # type: ignore[no-any-return]
-
-    @cached_property
-    def exponent(self) -> npt.NDArray[np.int64]:
-        """The power of two times `mantissa`, of shape (...)."""
-        return np.broadcast_to(np.int64(0), self.mantissa.shape[:-1])
 
     @property
     def S0(self) -> Array:  # noqa: N802 - as everybody writes it
@@ -293,13 +248,13 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     @property
     def log10_intensity(self) -> Array:
-        """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
+        """The decimal logarithm of S0, of shape (...); -inf where it is dark."""
         s0 = self._numbers[..., 0]
         xp = namespace(s0)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
+            return xp.asarray(xp.log10(s0))  # type: ignore[no-any-return]
 
-    @property
+    @cached_property
     def noise(self) -> npt.NDArray[Any]:
         """Which numbers of `stokes` are no more than rounding: those below it, shape (...).
 
@@ -314,11 +269,9 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(Light([1.0, 0.0, 0.0, 0.0]).noise)
         2.220446049250313e-16
         """
-        floor = self.noise_floor
-        if is_traced(floor):
-            return floor  # type: ignore[no-any-return]
-        with np.errstate(under="ignore", over="ignore"):
-            return np.asarray(np.ldexp(floor, self.exponent))
+        numbers = self._numbers
+        noise = noise_in(numbers, self.__dict__.get("_noise"))
+        return locked(namespace(numbers).asarray(noise))  # type: ignore[no-any-return]
 
     @property
     def wavelength(self) -> Array | None:
@@ -343,14 +296,14 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     @property
     def normalized(self) -> Array:
-        """The Stokes vector over S0, of shape (..., 4), however faint; NaN where it is dark."""
+        """The Stokes vector over S0, of shape (..., 4); NaN where it is dark."""
         stokes = self._numbers
-        there = (stokes[..., 0] > self.noise_floor)[..., np.newaxis]
+        there = (stokes[..., 0] > self.noise)[..., np.newaxis]
         return namespace(stokes).where(there, shares(stokes), np.nan)  # type: ignore[no-any-return]
 
     @property
     def dop(self) -> Array:
-        """The degree of polarisation, of shape (...), however faint; NaN where it is dark."""
+        """The degree of polarisation, of shape (...); NaN where it is dark."""
         return self._where_there(length(*polarised(self._numbers)))
 
     @property
@@ -415,7 +368,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
         1
         """
-        s3, floor = self._numbers[..., 3], self.noise_floor
+        s3, floor = self._numbers[..., 3], self.noise
         return namespace(s3).asarray((s3 > floor).astype(int) - (s3 < -floor).astype(int))  # type: ignore[no-any-return]
 
     @property
@@ -460,7 +413,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         if isinstance(frame, Frame):
             check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
         turned = turned_stokes(self._numbers, self.frame.turn_to(frame))
-        return Light.of(turned, frame, self.exponent, self._inherited(), **self.origin())
+        return Light.of(turned, frame, self._inherited(), **self.origin())
 
     def nearest_physical(self) -> Light:
         """Return the light that is nearest: S0 is kept, and the polarised part scaled to it.
@@ -475,9 +428,8 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         1.0817 [1.     0.8321 0.     0.5547]
         """
         nearest = nearest_light(self._numbers)
-        origin = self.origin() | {"measured": False}
         frame = self._cached_frame("frame")
-        return Light.of(nearest, frame, self.exponent, self._inherited(), **origin)
+        return Light.of(nearest, frame, self._inherited(), wavelength=self.kept_wavelength)
 
     def to(self, convention: str) -> Array:
         """Return the Stokes vectors as other software writes them, of shape (..., 4).
@@ -724,11 +676,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """Whether it is, or is made of, ``Light(..., physical=False)``."""
         return "_measured" in self.__dict__
 
-    @cached_property
-    def noise_floor(self) -> Any:
-        """The noise in the mantissa, of shape (...)."""
-        return locked(noise_in(self._numbers, self.__dict__.get("_noise"), self.exponent))
-
     @property
     def kept_wavelength(self) -> Any:
         """The wavelengths as they are kept, which nobody has to find for it."""
@@ -739,10 +686,9 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """The parameters of a run of which any may be the wavelength of the light."""
         return getattr(self.kept_wavelength, "in_doubt", ())
 
-    def origin(self, wavelength: Any = ...) -> dict[str, Any]:
+    def origin(self) -> dict[str, Any]:
         """Return what light that is made of this one has of it, by the names of `Light.of`."""
-        stored = self.kept_wavelength if wavelength is ... else wavelength
-        return {"measured": self.is_measured, "wavelength": stored}
+        return {"measured": self.is_measured, "wavelength": self.kept_wavelength}
 
     def __add__(self, other: object) -> Light:
         """Return the incoherent sum in the frame of this one, if no wavelengths differ."""
@@ -752,12 +698,11 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         # Frames that are known to be one need not be made.
         is_one = other._cached_frame("frame") is self._cached_frame("frame")
         aligned = other if is_one else other.in_frame(self.frame)
-        if is_traced(self.mantissa) or is_traced(aligned.mantissa):
-            one, two = self.stokes, aligned.stokes
-            total = (one + two).astype(coarser(one, two))
-            return self._like(total, other=aligned)
-        total, power = sum_of(self._numbers, self.exponent, aligned._numbers, aligned.exponent)
-        return self._like(total, power, inheriting((self, aligned)), aligned)
+        one, two = self._numbers, aligned._numbers
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = (one + two).astype(coarser(one, two), copy=False)
+        noise = None if is_traced(total) else inheriting((self, aligned))
+        return self._like(total, noise, common_wavelength(self, aligned))
 
     def __radd__(self, other: object) -> Light:
         """Begin a sum: 0 and light is light, so that ``sum(lights)`` has one."""
@@ -781,12 +726,13 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             refuse("light times light has no meaning")
         factor = factor_of_light(factor, dark=multiplied)
         check_broadcast({"light": self.shape, "factor": factor.shape})
-        if is_traced(self.mantissa) or is_traced(factor):
-            factor, stokes = factor[..., np.newaxis], self.stokes
-            product = stokes * factor if multiplied else stokes / factor
-            return self._like(product.astype(coarser(product, stokes)))
-        stokes, exponent, share, power = product_of(self._numbers, self.exponent, factor, done)
-        return self._like(stokes, exponent, self._inherited(share, power))
+        stokes, along = self._numbers, factor[..., np.newaxis]
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            product = stokes * along if multiplied else stokes / along
+            share = factor if multiplied else 1.0 / factor
+        product = product.astype(coarser(product, stokes), copy=False)
+        noise = None if is_traced(product) else self._inherited(share)
+        return self._like(product, noise, self.kept_wavelength)
 
     def __matmul__(self, other: object) -> NoReturn:
         """Refuse: what light meets stands before it."""
@@ -830,70 +776,61 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         if not isinstance(other, Light):
             return NotImplemented
         for light in (self, other):
-            check_known("light == light", light.mantissa)
-        mine, theirs = ((light.mantissa, light.exponent) for light in (self, other))
-        return same_numbers(mine, theirs) and self.frame == other.frame
+            check_known("light == light", light.stokes)
+        # What a detector does not read is equal to itself.
+        same = np.array_equal(self.stokes, other.stokes, equal_nan=True)
+        return same and self.frame == other.frame
 
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        return text_of(self._numbers, self.frame, self.exponent)
+        return text_of(self._numbers, self.frame)
 
     def __str__(self) -> str:
         """Return what `repr` does, with 0 for what is no more than rounding."""
-        numbers, floor = self._numbers, self.noise_floor
+        numbers, floor = self._numbers, self.noise
         if is_traced(floor):
             return repr(self)
         quiet = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, numbers)
-        return text_of(quiet, self.frame, self.exponent)
+        return text_of(quiet, self.frame)
 
     def __getstate__(self) -> dict[str, Any]:
         # What computes the noise stays here.
         own = super().__getstate__()
         if "_noise" in own:
-            own["_noise"] = self.noise_floor
+            own["_noise"] = self.noise
         if "_wavelength" in own:
             own["_wavelength"] = self.wavelength
         return own
 
-    def _like(
-        self, mantissa: Any, exponent: Any = 0, noise: Any = None, other: Any = None
-    ) -> Light:
-        """Return light of other numbers in the frame of this one, with the other one in it."""
-        frame, origin = self._cached_frame("frame"), self.origin(common_wavelength(self, other))
-        return Light.of(mantissa, frame, exponent, noise, **origin)
+    def _like(self, stokes: Any, noise: Any, wavelength: Any) -> Light:
+        """Return light of other numbers in the frame of this one."""
+        frame = self._cached_frame("frame")
+        return Light.of(stokes, frame, noise, measured=self.is_measured, wavelength=wavelength)
 
     def _each(self, change: Callable[[Any], Any]) -> Light:
-        exponent = change(self.exponent) if self.exponent.any() else 0
-        check_known("an index of light with an exponent", exponent)
-        noise = self._inherited(part=change)
         frame = self._part_of_frame("frame", self.shape, change)
-        numbers = each_number(self._numbers, change)
-        origin = self.origin(part_of_wavelength(self, change))
-        return Light.of(numbers, frame, exponent, noise, **origin)
+        numbers, noise = each_number(self._numbers, change), self._inherited(part=change)
+        wavelength = part_of_wavelength(self, change)
+        return Light.of(numbers, frame, noise, measured=self.is_measured, wavelength=wavelength)
 
-    def _inherited(
-        self, factor: Any = 1.0, power: Any = 0, part: Any = None
-    ) -> tuple[Any, ...] | None:
+    def _inherited(self, factor: Any = 1.0, part: Any = None) -> tuple[Any, ...] | None:
         """Return what light that is made of this one has of its noise."""
-        if is_traced(self.mantissa):
-            return None
-        return inheriting((self,), factor, power, part=part)
+        return None if is_traced(self.stokes) else inheriting((self,), factor, part=part)
 
     @property
     def _numbers(self) -> Array:
-        """The mantissa, for NumPy unless JAX traces it."""
-        return known(self.mantissa)  # type: ignore[no-any-return]
+        """The Stokes vectors, for NumPy unless JAX traces them."""
+        return known(self.stokes)  # type: ignore[no-any-return]
 
     def _component(self, place: int) -> Array:
-        component: Array = handed_out(known(self.stokes)[..., place])
-        return component
+        return handed_out(self._numbers[..., place])  # type: ignore[no-any-return]
 
     def _where_there(self, value: Any, *components: int) -> Array:
         """Return a value, NaN where light is dark, or has none of some components, for noise."""
-        return where_there(value, self._numbers, self.noise_floor, *components)
+        return where_there(value, self._numbers, self.noise, *components)
 
     @property
     def _ellipse(self) -> tuple[Array, Array, Array]:
         """S1, S2 and S3 over S0, 0 where they are no more than noise."""
-        return ellipse_of(self._numbers, self.noise_floor)
+        return ellipse_of(self._numbers, self.noise)

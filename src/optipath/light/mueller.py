@@ -27,7 +27,6 @@ from optipath.light.light import Light
 from optipath.light.on_demand import FramesOnDemand, inheriting, rounding
 from optipath.light.passive import check_becomes_light, nan_where_no_light
 from optipath.light.polarization_state import direction, length, norm, ratio
-from optipath.light.underflow import folded, normalise_exponent, rounded_to
 from optipath.values.angles import calls_up
 from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array, same
 from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
@@ -488,23 +487,19 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         aligned = light.in_frame(self.frame_in)
         behind = self._cached_frame("frame_out")
         judged = self.is_given and not light.is_measured
-        origin = light.origin()
-        if is_traced(matrix) or is_traced(aligned.mantissa):
-            stokes = aligned.stokes
+        stokes = known(aligned.stokes)
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
             product = (matrix @ stokes[..., np.newaxis])[..., 0]
-            product = product.astype(coarser(matrix, stokes))
+        product = product.astype(coarser(matrix, stokes), copy=False)
+        if is_traced(product):
+            noise = None
             if judged:
                 product = nan_where_no_light(matrix, self.noise, stokes, product)
-            return Light.of(product, behind, **origin)
-        stokes, exponent = normalise_exponent(aligned.mantissa, aligned.exponent)
-        with np.errstate(over="ignore", invalid="ignore"):
-            product = (matrix @ stokes[..., np.newaxis])[..., 0]
-        exponent = np.broadcast_to(exponent, product.shape[:-1])
-        if judged:
-            check_becomes_light(matrix, self.noise, stokes, product)
-        noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
-        product, exponent = folded(*rounded_to(coarser(matrix, stokes), product, exponent))
-        return Light.of(product, behind, exponent, noise, **origin)
+        else:
+            noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
+            if judged:
+                check_becomes_light(matrix, self.noise, stokes, product)
+        return Light.of(product, behind, noise, **light.origin())
 
     def _behind(self, other: Mueller) -> Mueller:
         matrix, before = known(self.matrix), known(other.matrix)

@@ -70,7 +70,6 @@ def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], 
 def inheriting(
     lights: tuple[Any, ...],
     factor: Any = 1.0,
-    power: Any = 0,
     *,
     mixed: bool = False,
     part: Any = None,
@@ -81,39 +80,33 @@ def inheriting(
         # What is inherited twice is found now, lest sums of many lights keep all of them.
         noise = vars(light).get("_noise")
         if isinstance(noise, tuple) and noise[0] is inherited_noise:
-            vars(light)["_noise"] = light.noise_floor
-    return inherited_noise, lights, factor, power, mixed, part, added
+            vars(light)["_noise"] = light.noise
+    return inherited_noise, lights, factor, mixed, part, added
 
 
+@np.errstate(over="ignore", under="ignore", invalid="ignore")
 def inherited_noise(
     lights: tuple[Any, ...],
     factor: Any,
-    power: Any,
     mixed: bool,  # noqa: FBT001 - called by what is kept of it
     part: Callable[[Any], Any] | None,
     added: Any,
     stokes: Array,
-    exponent: Array,
 ) -> Array:
-    """Return the noise (...) in a mantissa."""
-    total = np.zeros(exponent.shape, stokes.dtype)
+    """Return the noise (...) in Stokes vectors."""
+    total = np.zeros(stokes.shape[:-1], stokes.dtype)
     for light in lights:
-        floor, own = light.noise_floor, light.exponent
-        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-            if mixed:
-                floor = floor + rounding(known(light.mantissa))
-            floor = floor * np.abs(factor) + added * np.abs(known(light.mantissa)[..., 0])
-        if part is not None:
-            floor, own = part(floor), part(own)
-        with np.errstate(over="ignore", under="ignore"):
-            total = total + np.ldexp(floor, own + power - exponent)
+        numbers = known(light.stokes)
+        floor = light.noise + rounding(numbers) if mixed else light.noise
+        floor = floor * np.abs(factor) + added * np.abs(numbers[..., 0])
+        total = total + (floor if part is None else part(floor))
     return total
 
 
-def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
-    """Return the noise (...) in a mantissa: the rounding of S0 at least.
+def noise_in(stokes: Any, noise: Any) -> Any:
+    """Return the noise (...) in Stokes vectors: the rounding of S0 at least.
 
-    >>> print(noise_in(np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-9), np.array(0)))
+    >>> print(noise_in(np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-9)))
     1e-09
     """
     least = rounding(stokes)
@@ -121,7 +114,7 @@ def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
         return least
     if isinstance(noise, tuple):
         result, *argument = noise
-        noise = result(*argument, stokes, exponent)
+        noise = result(*argument, stokes)
     return np.maximum(least, noise)
 
 
@@ -141,9 +134,9 @@ _ROUNDING = 2.0 * float(np.finfo(np.float32).eps)
 
 
 def common_wavelength(light: Any, other: Any) -> Any:
-    """Return what light has that is made of this, and of another one if there is one."""
+    """Return what light has that is made of this and of another one."""
     mine = light.kept_wavelength
-    if other is None or mine is None or mine is other.kept_wavelength:
+    if mine is None or mine is other.kept_wavelength:
         return mine
     # Found now, lest sums of many lights keep what finds those of each.
     one, two = light.wavelength, other.wavelength

@@ -13,35 +13,29 @@ from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
-    from optipath.values.precision import Array
 
 
 _SHOWN = 6
 """How many lights of a batch are shown."""
 
 
-def text_of(numbers: Any, frame: Frame, exponent: Array) -> str:
-    """Return light (..., 4) as one writes it.
+def text_of(numbers: Any, frame: Frame) -> str:
+    """Return light (..., 4) as one writes it, a few of very many.
 
-    >>> text_of(np.array([1.0, 0.0, 0.0, 0.5]), Frame(), np.array(-5000))
-    'Light([1. , 0. , 0. , 0.5], exponent=-5000)'
+    >>> text_of(np.array([1.0, 0.0, 0.0, 0.5]), Frame())
+    'Light([1. , 0. , 0. , 0.5])'
     """
-    messages = [_text(numbers)]
+    most = 4 * _SHOWN
+    messages = [
+        repr(numbers)
+        if is_traced(numbers)
+        else np.array2string(numbers, separator=", ", threshold=most, edgeitems=2, prefix="Light(")
+    ]
     if frame != Frame():
         messages.append("frame=" + repr(frame))
-    if exponent.any():
-        messages.append(f"exponent={_text(exponent)}")
-    if exponent.size > _SHOWN:
-        messages.append(f"shape={exponent.shape}")
+    if numbers.size > most:
+        messages.append(f"shape={numbers.shape[:-1]}")
     return f"Light({', '.join(messages)})"
-
-
-def _text(numbers: Any) -> str:
-    """Return numbers as they are shown, a few of very many."""
-    if is_traced(numbers):
-        return repr(numbers)
-    most = _SHOWN * (4 if numbers.dtype.kind == "f" else 1)
-    return np.array2string(numbers, separator=", ", threshold=most, edgeitems=2, prefix="Light(")
 
 
 class Numbers(NamedTuple):

@@ -174,12 +174,3 @@ DERIVED = tuple([each for each in _STATE if each.is_swept])
 
 QUANTITIES = (*COMPONENTS, *DERIVED)
 PRINTED = tuple([each for each in _STATE if each.printed])
-
-FAINT = LightQuantity(
-    "log10_intensity",
-    "log10_intensity",
-    "1",
-    "decimal logarithm of the intensity, however faint",
-    reads="intensity",
-)
-"""What is there besides where intensities are too small for a float."""

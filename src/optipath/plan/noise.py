@@ -112,10 +112,8 @@ def noise_at(
     parameters: Mapping[str, Any],
     where: Any,
     stokes: Array,
-    exponent: Any = 0,
 ) -> Array:
     """Return what is noise in light, wherever a component of it is small enough for that."""
-    del exponent
     result = np.zeros(stokes.shape[:-1], stokes.dtype)
     interpreter = answers.noise
     readings = interpreter.program.readings

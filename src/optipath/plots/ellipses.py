@@ -181,7 +181,7 @@ def unpolarised_share(light: Light) -> float:
     >>> unpolarised_share(op.Light([2.0, 0.0, 0.6, 0.8]))
     0.5
     """
-    rounding = 4.0 * float(np.finfo(light.mantissa.dtype).eps)
+    rounding = 4.0 * float(np.finfo(light.stokes.dtype).eps)
     share = 1.0 - float(light.dop)
     return 0.0 if share < rounding else share
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import OptipathError, shown, unknown
-from optipath.light.quantities import FAINT, QUANTITIES, LightQuantity
+from optipath.light.quantities import QUANTITIES, LightQuantity
 from optipath.plots.color_scale import ColourScale
 
 if TYPE_CHECKING:
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
     from optipath.values.precision import Numbers
 
-
-_ALL = (*QUANTITIES, FAINT)
 
 _READS = ("intensity", "linear", "stokes")
 """What a detector reads, from the least."""
@@ -35,8 +33,6 @@ class DrawnQuantity(NamedTuple):
     @property
     def unit(self) -> str:
         """The unit in which it is drawn; quantities of one share an axis."""
-        if self.light is FAINT:
-            return "log10"
         return {"rad": "°"}.get(self.light.unit, self.light.unit)
 
     @property
@@ -74,9 +70,6 @@ class DrawnQuantity(NamedTuple):
         if self.period:
             return ColourScale.axis() if self.name == "AoP" else ColourScale.phase()
         finite = numbers[np.isfinite(numbers)]
-        if self.light is FAINT:
-            ends = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-            return ColourScale.ordered(*ends)
         low, high = self.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, None)
         largest = high or float(np.max(np.abs(finite), initial=0.0)) or 1.0
         return ColourScale.signed(largest) if low < 0.0 else ColourScale.share(largest)
@@ -93,7 +86,7 @@ def drawn_quantities(names: Any) -> list[DrawnQuantity]:
         raise OptipathError(
             f"quantities are {shown(names)}; give a name such as 'S0', or several: ('S0', 'DoLP')"
         )
-    known = {each.variable: each for each in _ALL}
+    known = {each.variable: each for each in QUANTITIES}
     small = {name.lower(): name for name in known}
     read = [small.get(name.lower(), name) if isinstance(name, str) else name for name in argument]
     faults = [sentence for name in read for sentence in unknown("quantity", name, known)]

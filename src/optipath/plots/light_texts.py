@@ -31,7 +31,7 @@ def known_light(light: Any) -> Light:
             f"{shown(light)} is no light; give a Light, as path.trace() returns it or "
             "op.Light([S0, S1, S2, S3]) makes it"
         )
-    check_known("a picture of light", light.mantissa)
+    check_known("a picture of light", light.stokes)
     return light
 
 
@@ -101,19 +101,14 @@ def digits(value: float, count: int = 4) -> str:
 
 
 def intensity_text(light: Light) -> str:
-    """Return the intensity of one light, however faint.
+    """Return the intensity of one light.
 
     >>> import optipath as op
     >>> intensity_text(op.Light([0.5, 0.0, 0.0, 0.0]))
     'S0 = 0.5'
-    >>> intensity_text(op.Light([1.0, 0.0, 0.0, 0.0], exponent=33219281))
-    'S0 = 10^1e7'
     """
-    plain, power = float(light.intensity), float(light.log10_intensity)
-    # An exponent says that a float is no measure of it.
-    if light.exponent and np.isfinite(power):
-        return f"S0 = 10^{digits(power, 7)}"
-    return f"S0 = {digits(plain)}" if not np.isnan(plain) else "S0 is not read"
+    intensity = float(light.intensity)
+    return "S0 is not read" if np.isnan(intensity) else f"S0 = {digits(intensity)}"
 
 
 def no_ellipse(light: Light) -> str:
@@ -125,7 +120,7 @@ def no_ellipse(light: Light) -> str:
     >>> no_ellipse(op.Light([1.0, np.nan, np.nan, np.nan]))
     'S1, S2 and S3 are not read'
     """
-    numbers = np.asarray(light.mantissa, float)
+    numbers = np.asarray(light.stokes, float)
     if unread := [f"S{place}" for place in range(4) if np.isnan(numbers[place])]:
         return f"{listed(unread)} {'is' if len(unread) == 1 else 'are'} not read"
     if not np.isfinite(numbers).all():

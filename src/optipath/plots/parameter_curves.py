@@ -64,7 +64,7 @@ def curve(
         The parameter that goes along x, in its unit.
     y : str or sequence of str, optional
         What goes up, in capitals or not: ``"S0"`` to ``"S3"``, ``"DoP"``, ``"DoLP"``, ``"AoP"``,
-        ``"ellipticity"``, ``"psi"``, ``"delta"``, ``"log10_intensity"``.
+        ``"ellipticity"``, ``"psi"``, ``"delta"``.
     ax : Axes, optional
         Where; a figure of its own by default, ``.figure`` of what is returned.
     values : array_like or str, optional

@@ -273,7 +273,7 @@ def sphere_point(light: Any) -> Numbers:
     """Return S1, S2 and S3 over S0 (..., 3); NaN where light is dark or has not been read.
 
     >>> import optipath as op
-    >>> sphere_point(op.Light([2.0, 1.0, 0.0, 0.0], exponent=-5000))
+    >>> sphere_point(op.Light([2.0, 1.0, 0.0, 0.0]))
     array([0.5, 0. , 0. ])
     """
     return np.asarray(light.normalized, float)[..., 1:]

@@ -101,11 +101,8 @@ def stokes(
     several = {name: without_noise(each) for name, each in lights_to_draw(light, labels).items()}
     other = published_for(published, light, several)
     power = power_of_ten([*several.values()], other.values())
-    numbers = {
-        name: scaled_to(known(each.mantissa), each.exponent, power)
-        for name, each in several.items()
-    }
-    printed = {name: scaled_to(each, 0, power) for name, each in other.items()}
+    numbers = {name: scaled_to(each.stokes, power) for name, each in several.items()}
+    printed = {name: scaled_to(each, power) for name, each in other.items()}
     ax = own_axes(ax, (5.6, 4.4))
     keys = _draw_bars(ax, numbers, printed)
     ax.axhline(0.0, color=INK, linewidth=0.8)
@@ -239,9 +236,9 @@ def without_noise(light: Light) -> Light:
     >>> without_noise(op.load_preset("senarmont").trace()).stokes
     array([0., 0., 0., 0.])
     """
-    numbers, floor = known(light.mantissa), np.asarray(light.noise_floor)[..., np.newaxis]
+    numbers, floor = known(light.stokes), light.noise[..., np.newaxis]
     noise = (np.abs(numbers) < floor) & np.isfinite(floor)
-    return Light.of(np.where(noise, 0.0, numbers), light.frame, light.exponent, measured=True)
+    return Light.of(np.where(noise, 0.0, numbers), light.frame, measured=True)
 
 
 def power_of_ten(lights: Sequence[Light], others: Iterable[Numbers]) -> int:
@@ -259,14 +256,14 @@ def power_of_ten(lights: Sequence[Light], others: Iterable[Numbers]) -> int:
     return 0 if power in _PLAIN else power
 
 
-def scaled_to(stokes: Any, exponent: Any, power: int) -> Numbers:
-    """Return numbers (4,) times two to an exponent over a power of ten, be they floats or not.
+def scaled_to(stokes: Any, power: int) -> Numbers:
+    """Return Stokes vectors over a power of ten.
 
-    >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), 0, -300).round(12)
+    >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), -300).round(12)
     array([ 2.,  0., nan,  1.])
     """
     numbers = np.asarray(stokes, float)
     if not power:
-        return np.asarray(np.ldexp(numbers, exponent))
+        return numbers
     with np.errstate(under="ignore"):
-        return np.asarray(numbers * np.exp2(float(exponent) - power * np.log2(10.0)))
+        return np.asarray(numbers * np.exp2(-power * np.log2(10.0)))

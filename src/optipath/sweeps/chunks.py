@@ -144,7 +144,7 @@ class BlockLight:
 
     def __sizeof__(self) -> int:
         # What Dask takes for its memory: Stokes vectors and, once it is asked for, their noise.
-        return sum(light.mantissa.nbytes for several in self.lights for light in several) * 2
+        return sum(light.stokes.nbytes for several in self.lights for light in several) * 2
 
 
 def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:

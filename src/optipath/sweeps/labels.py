@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ParameterError
-from optipath.light.quantities import FAINT, QUANTITIES
+from optipath.light.quantities import QUANTITIES
 from optipath.plan.reading import pieces
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ def is_variable(name: str) -> bool:
     >>> is_variable("S0"), is_variable("DoP at camera"), is_variable("rho")
     (True, True, False)
     """
-    own = {quantity.variable for quantity in (*QUANTITIES, FAINT)}
+    own = {quantity.variable for quantity in QUANTITIES}
     return name.partition(" at ")[0] in {*own, *CAPITALIZED.values()}
 
 
@@ -42,7 +42,7 @@ def detectors_of(plan: Plan) -> tuple[str, ...]:
 def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
     """Return what the variable of each quantity is called."""
     taken = [*dict.fromkeys([*grid.sizes, *plan.inputs.open])]
-    own = [quantity.variable for quantity in (*QUANTITIES, FAINT)]
+    own = [quantity.variable for quantity in QUANTITIES]
     other = CAPITALIZED if CAPITALIZED.keys() & set(taken) else {}
     names = {name: other.get(name, name) for name in own}
     several = len(detectors_of(plan)) > 1
