@@ -49,7 +49,7 @@ def table(path: op.PathGraph, axes: dict[str, object], given: dict[str, object])
     began = time.process_time_ns()
     for several in light.lights:
         for each in several:
-            _ = each.noise_floor
+            _ = each.noise
     noise = (time.process_time_ns() - began) / grid.points
     told = [
         f"{each.variable} {cost(partial(light.of, each), grid.points):.0f}" for each in QUANTITIES

@@ -277,7 +277,7 @@ NOT_IN_PRODUCTS = {
     "Plan begins with light of its own": [lambda: PATH.compose() @ STATE],
     "PathGraph begins with light of its own": [lambda: MATRIX @ PATH, lambda: PATH @ ELEMENT],
     "write the element without a name": [lambda: ELEMENT.named("a") @ STATE],
-    "source lets no light through, which begins there; ask": [lambda: op.Source() @ STATE],
+    "source lets no light through; ask": [lambda: op.Source() @ STATE],
     "detector lets no light through; ask": [lambda: op.Detector() @ STATE],
     r'say the ports, such as element.mueller\("in", "refl': [lambda: op.BeamSplitter() @ STATE],
 }
