@@ -295,7 +295,7 @@ def test_on_the_way_back_from_a_mirror_the_turns_add_up_where_the_field_is_seen_
         ({"verdet": 2.0, "field": B, "length": -0.1}, "length is -100 mm; give a real length"),
         ({"verdet": "2 rad", "field": B, "length": L}, "'2 rad' is no Verdet constant; use one of"),
         ({"verdet": 1.0, "field": "2 tesla", "length": L}, "did you mean 'T'"),
-        ({"verdet": 1.0, "field": 1e7, "length": L}, "field is 10000000 T; give a real magnetic"),
+        ({"verdet": 1.0, "field": 1e7, "length": L}, "field is 1e.07 T; give a real magnetic"),
     ],
 )
 def test_what_is_given_is_the_angle_or_all_of_the_product(given, fault):

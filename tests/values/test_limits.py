@@ -263,12 +263,12 @@ def test_one_bad_path_of_many_is_told_with_its_place_and_no_number_of_one_is_off
     given = {"n": 1.5, "o": 1.5, "t": np.arcsin(np.sin(0.3) / 1.5)}
     n = np.array([1.5, 1.6])
     for changed, cure in (
-        ({"o": n}, "give o = 1.5, or op.FOLLOWS"),
+        ({"o": n}, "give op.FOLLOWS for outside"),
         (
             {"n": n - 0.1, "o": np.array([1.5, 1.5])},
             "(at 0, of 2 paths); give op.FOLLOWS for outside",
         ),
-        ({"t": [0.1, 0.2]}, f"an incidence of {np.degrees(given['t']):.10g} deg in n = 1.5"),
+        ({"t": [0.1, 0.2]}, "give 'back' an incidence of op.FOLLOWS ("),
         ({"n": n, "o": n}, "give 'back' an incidence of op.FOLLOWS ("),
     ):
         assert cure in fault_of(path, **given | changed)
@@ -296,16 +296,11 @@ def test_what_is_not_allowed_is_told_with_its_place(parameter, given, words):
 def test_the_cure_of_an_angle_passes_as_it_is_written(angle, n, outside):
     front = op.Interface(n, f"{angle} deg", outside=outside)
 
-    def back(incidence, before=None):
-        face = op.Interface(1.0, incidence, outside=n, incidence_in=before)
-        return two_faces(front, face)
+    def back(incidence):
+        return two_faces(front, op.Interface(1.0, incidence, outside=n))
 
-    fault = fault_of(back(0.3))
-    cures = re.findall(r"([0-9.e-]+ deg) (in n|with incidence_in) = ([0-9.]+)[ ,]", fault)
-    offered = [cure for cure in cures if f"({cure[0]}" not in fault]
-    assert offered
-    for incidence, how, index in offered:
-        back(incidence, None if how == "in n" else float(index)).check()
+    assert "give 'back' an incidence of op.FOLLOWS" in fault_of(back(0.3))
+    back(op.FOLLOWS).check()
     if (angle, n) == (89.97722848292891, 1.561013496050288):
         # Figures that differ differ as they are printed.
         here, there = re.findall(r"([0-9.]+) at '", fault_of(back("55.79305157 deg")))

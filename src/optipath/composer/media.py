@@ -388,7 +388,8 @@ class SnellsLaw(Agreement):
         (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
         pairs = ((angle1, n1, k1), (angle2, n2, k2))
         here, there = (float(_index(np, a, n, k)) * math.sin(a) for a, n, k in pairs)
-        sines = f"{here:.10g} at '{name}' and {there:.10g} at '{own}'"
+        digits = 10 if f"{here:.10g}" != f"{there:.10g}" else 17
+        sines = f"{here:.{digits}g} at '{name}' and {there:.{digits}g} at '{own}'"
         argument = text_of(self.operands[3], math.degrees(angle2), " deg")
         argument += f" in n = {text_of(self.operands[4], n2)}"
         if k2:
@@ -402,15 +403,12 @@ class SnellsLaw(Agreement):
                 f"incidence over (FOLLOWS) from other light: n sin(incidence) is {sines} "
                 f"({argument}); give each light a face of its own"
             )
-        angle = ""
-        if not (k1 or k2 or {0, 1, 2, 4, 5}.intersection(varying)) and here <= n2:
-            angle = f"{math.degrees(math.asin(here / n2)):.10g} deg in n = {n2:.12g}, or "
         whys = ("light goes to and fro between them, so they are parallel",) * 2
         if self.may_be_shown:
             why = "faces behind one that refracts are parallel, unless they say parallel"
             whys = f"{why}=False", f"{why} = false"
         cures = [
-            f"give '{own}' an incidence of {angle}{follows} ({why})"
+            f"give '{own}' an incidence of {follows} ({why})"
             for follows, why in zip(("op.FOLLOWS", FOLLOWS.in_file), whys, strict=True)
         ]
         return Fault(

@@ -17,7 +17,7 @@ import numpy as np
 from optipath.engines.engine import Engine
 from optipath.engines.formula import left_formula
 from optipath.engines.numpy_engine import NumpyEngine
-from optipath.engines.symbols import Symbol
+from optipath.engines.symbols import OPERATIONS, Symbol
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -92,26 +92,19 @@ def _split_inputs(formula: Formula) -> list[Symbol]:
 
 _POINTED = {"float64": "double", "float32": "float", "int64": "i64", "uint8": "i8"}
 _COMPARED = {
-    "less": ("olt", "slt"),
-    "less_equal": ("ole", "sle"),
-    "greater": ("ogt", "sgt"),
-    "greater_equal": ("oge", "sge"),
-    "equal": ("oeq", "eq"),
-    "not_equal": ("une", "ne"),
-    "maximum": ("oge", "sge"),
-    "minimum": ("ole", "sle"),
+    "less": "lt",
+    "less_equal": "le",
+    "greater": "gt",
+    "greater_equal": "ge",
+    "equal": "eq",
+    "not_equal": "ne",
+    "maximum": "ge",
+    "minimum": "le",
 }
-"""How LLVM compares floats and integers."""
+"""How LLVM compares; the larger and the smaller of two numbers are chosen by a comparison."""
 
-_DONE = {
-    "add": ("fadd", "add"),
-    "subtract": ("fsub", "sub"),
-    "multiply": ("fmul", "mul"),
-    "divide": ("fdiv", "sdiv"),
-    "logical_and": ("and", "and"),
-    "logical_or": ("or", "or"),
-}
-"""What LLVM calls operations on two floats, or on two integers."""
+_DONE = {"add": "add", "subtract": "sub", "multiply": "mul", "divide": "div"}
+_OF_CONDITIONS = {"logical_and": "and", "logical_or": "or", "add": "or", "multiply": "and"}
 
 _CALLED = {"absolute": "fabs", "sqrt": "sqrt", "exp": "exp", "sin": "sin", "cos": "cos"}
 _CALLED |= {"power": "pow"}
@@ -124,10 +117,11 @@ class _Writer:
     def __init__(self, formula: Formula) -> None:
         self.formula = formula
         self.float = _POINTED[formula.dtype.name]
-        self.kinds = {"float": self.float, "int": "i64", "bool": "i1"}
         self.lines: list[str] = []
         self.declared: set[str] = set()
         self.names: dict[int, str] = {}
+        self.written: dict[int, str] = {}
+        self.real = self.float
         self.temporaries = 0
         self.block, self.good = "entry", "true"
         self.rooms = {s.index: n * _BLOCK for n, s in enumerate(_split_inputs(formula))}
@@ -276,77 +270,113 @@ class _Writer:
                 self.operation(step)
             for row, result in zip(rows, formula.computed, strict=True):
                 at = self.emit(f"add i64 {row}, %i")
-                self.write(self.as_float(result), "%out", at)
-            self.good = self.emit(f"and i1 {self.good}, {self.value(formula.holds)}")
+                self.write(self.value(result), "%out", at)
+            self.good = self.emit(f"and i1 {self.good}, {self.value(formula.holds, 'bool')}")
 
     def value(self, operand: Any, kind: str = "float") -> str:
-        """Return how a symbol or a number is written."""
-        if isinstance(operand, Symbol):
-            return self.names.get(operand.index, f"%t{operand.index}")
-        if isinstance(operand, (bool, np.bool_)):
-            return "true" if operand else "false"
-        return _literal(float(operand)) if kind == "float" else str(int(operand))
+        """Return how a symbol or a number is written, converted to a kind."""
+        if not isinstance(operand, Symbol):
+            if kind == "bool":
+                return "true" if operand else "false"
+            return _literal(float(operand)) if kind == "float" else str(int(operand))
+        name, own = self.names.get(operand.index, f"%t{operand.index}"), self.kind(operand)
+        if own == kind:
+            return name
+        if kind == "bool":
+            zero = "fcmp une " + self.real if own == "float" else "icmp ne i64"
+            return self.emit(f"{zero} {name}, {'0.0' if own == 'float' else '0'}")
+        if kind == "int":
+            return self.emit(f"zext i1 {name} to i64")
+        how = "uitofp i1" if own == "bool" else "sitofp i64"
+        return self.emit(f"{how} {name} to {self.real}")
 
-    def as_float(self, symbol: Symbol) -> str:
-        """Write a result, which may be an integer or a condition, as a float."""
-        if symbol.kind == "float":
-            return self.value(symbol)
-        how = "sitofp i64" if symbol.kind == "int" else "uitofp i1"
-        return self.emit(f"{how} {self.value(symbol)} to {self.float}")
+    def kind(self, operand: Any) -> str:
+        """Return the kind of a number, or of a symbol as it has been written."""
+        if isinstance(operand, Symbol):
+            return self.written.get(operand.index, operand.kind)
+        if isinstance(operand, (bool, np.bool_)):
+            return "bool"
+        return "int" if isinstance(operand, (int, np.integer)) else "float"
 
     def operation(self, step: Symbol) -> None:
         """Write an operation."""
-        self.names[step.index] = self.done(step.operation, step.operands, self.float)
+        self.names[step.index], self.written[step.index] = self.done(step)
 
     def left(self, left: Symbol, angle: str) -> str:
         """Write in double precision what is left of an angle, and return its name."""
         formula = left_formula(left.operation)
-        outside, self.names = self.names, {formula.inputs[0].index: angle}
+        outside = self.names, self.written, self.real
+        self.names, self.written, self.real = {formula.inputs[0].index: angle}, {}, "double"
         for step in formula.steps:
-            self.names[step.index] = self.done(step.operation, step.operands, "double")
+            self.operation(step)
         result = self.value(formula.results[0])
-        self.names = outside
+        self.names, self.written, self.real = outside
         return result
 
-    def done(self, operation: str, operands: tuple[Any, ...], real: str) -> str:
-        """Write an operation, and return the name of its result."""
-        kind = next((o.kind for o in operands if isinstance(o, Symbol)), "float")
-        if operation == "where":
-            kind = next((o.kind for o in operands[1:] if isinstance(o, Symbol)), "float")
-            condition = self.value(operands[0])
-            yes, no = (self.value(o, kind) for o in operands[1:])
-            of = {"float": real, "int": "i64", "bool": "i1"}[kind]
-            return self.emit(f"select i1 {condition}, {of} {yes}, {of} {no}")
+    def done(self, step: Symbol) -> tuple[str, str]:
+        """Write an operation, and return the name of its result, and its kind."""
+        operation, operands = step.operation, step.operands
         if operation == "ldexp":
-            return self.scaled(self.value(operands[0]), self.value(operands[1], "int"))
-        of = {"float": real, "int": "i64", "bool": "i1"}[kind]
-        values = [self.value(operand, kind) for operand in operands]
-        first, both = values[0], ", ".join(values)
-        is_float = kind == "float"
-        if operation in _DONE:
-            return self.emit(f"{_DONE[operation][not is_float]} {of} {both}")
+            number, power = self.value(operands[0]), self.value(operands[1], "int")
+            return self.scaled(number, power), "float"
+        chosen = operands[1:] if operation == "where" else operands
+        kinds = {self.kind(operand) for operand in chosen}
+        kind = next(name for name in ("float", "int", "bool") if name in kinds)
+        if OPERATIONS[operation].kind == "float" or operation in ("exponent", "integer"):
+            kind = "float"
+        of = {"float": self.real, "int": "i64", "bool": "i1"}[kind]
+        values = [self.value(operand, kind) for operand in chosen]
+        both = ", ".join(values)
+        if operation == "where":
+            condition, (yes, no) = self.value(operands[0], "bool"), values
+            return self.emit(f"select i1 {condition}, {of} {yes}, {of} {no}"), kind
         if operation in _COMPARED:
-            compare = "fcmp" if is_float else "icmp"
-            result = self.emit(f"{compare} {_COMPARED[operation][not is_float]} {of} {both}")
+            compare = {"float": "fcmp o", "int": "icmp s", "bool": "icmp u"}[kind]
+            name = _COMPARED[operation]
+            if name in ("eq", "ne"):
+                compare = {"eq": "fcmp o", "ne": "fcmp u"}[name] if kind == "float" else "icmp "
+            result = self.emit(f"{compare}{name} {of} {both}")
             if operation not in ("maximum", "minimum"):
-                return result
-            return self.emit(f"select i1 {result}, {of} {first}, {of} {values[1]}")
-        if operation == "negative":
-            return self.emit(f"fneg {of} {first}" if is_float else f"sub i64 0, {first}")
-        if operation == "logical_not":
-            return self.emit(f"xor i1 {first}, true")
+                return result, "bool"
+            return self.emit(f"select i1 {result}, {of} {values[0]}, {of} {values[1]}"), kind
+        if kind == "float":
+            return self.of_floats(operation, values)
+        return self.of_integers(operation, of, values), kind
+
+    def of_floats(self, operation: str, values: list[str]) -> tuple[str, str]:
+        """Write an operation on floats, and return the name of its result, and its kind."""
+        of, both = self.real, ", ".join(values)
         if operation == "exponent":
-            return self.exponent(first)
+            return self.exponent(values[0]), "int"
         if operation == "integer":
-            return self.emit(f"fptosi {of} {first} to i64")
-        if operation in ("floor_divide", "remainder"):
-            return self.whole_divided(operation, *values)
+            return self.emit(f"fptosi {of} {values[0]} to i64"), "int"
+        if operation in _DONE:
+            return self.emit(f"f{_DONE[operation]} {of} {both}"), "float"
+        if operation == "negative":
+            return self.emit(f"fneg {of} {both}"), "float"
         if operation == "product_rest":
             product = self.emit(f"fmul {of} {both}")
-            return self.call("llvm.fma", of, *values, self.emit(f"fneg {of} {product}"))
-        if operation == "arctan2":
-            return self.call("atan2", of, *values)
-        return self.call(f"llvm.{_CALLED[operation]}", of, *values)
+            rest = self.call("llvm.fma", of, *values, self.emit(f"fneg {of} {product}"))
+            return rest, "float"
+        function = "atan2" if operation == "arctan2" else f"llvm.{_CALLED[operation]}"
+        return self.call(function, of, *values), "float"
+
+    def of_integers(self, operation: str, of: str, values: list[str]) -> str:
+        """Write an operation on integers or conditions, and return the name of its result."""
+        both = ", ".join(values)
+        if operation in _OF_CONDITIONS and (of == "i1" or operation.startswith("logical")):
+            return self.emit(f"{_OF_CONDITIONS[operation]} {of} {both}")
+        if operation == "logical_not":
+            return self.emit(f"xor i1 {both}, true")
+        if operation == "absolute":
+            if of == "i1":
+                return values[0]
+            return self.call("llvm.abs", of, both, "false")
+        if operation == "negative":
+            return self.emit(f"sub i64 0, {both}")
+        if operation in ("floor_divide", "remainder"):
+            return self.whole_divided(operation, *values)
+        return self.emit(f"{_DONE[operation]} {of} {both}")
 
     def call(self, function: str, of: str, *values: str) -> str:
         """Write the call of a function of floats."""

@@ -69,8 +69,8 @@ class Structure:
     def known_rows(self, numbers: Sequence[float | None]) -> tuple[tuple[float | None, ...], ...]:
         """Return what is known of a matrix, for what is known of its numbers.
 
-        >>> BLOCK.known_rows((None, None, None, None, 0.0))[3]
-        (0.0, 0.0, 0.0, None)
+        >>> BLOCK.known_rows((None, None, None, None, 0.0))[2]
+        (0.0, 0.0, None, 0.0)
         """
         several = numbers or (None,) * len(self.identity)
         # What depends on a number that is not known comes to NaN.
