@@ -224,24 +224,16 @@ def test_angles_in_degrees_are_warned_of_and_what_cannot_be_is_refused():
         op.Composer(composing="jones").compose(chain([op.EllipticalRetarder(0.1, 0.2, 0.3)], STATE))
 
 
-def test_three_numbers_of_the_first_component_are_asked_about_where_they_may_be_a_vector(tmp_path):
-    vector, first = [0.1, "12 deg", 0.3], op.EllipticalRetarder(op.Parameter("v"))
-    for ask in (lambda: op.EllipticalRetarder(vector), lambda: chain([first]).trace(v=vector)):
-        with pytest.raises(op.OptipathError, match="may be a rotation vector, or s1 of three path"):
-            ask()
+def test_three_numbers_of_the_first_component_are_of_three_paths(tmp_path):
     several = np.array([0.1, 0.2, 0.3])
     path = chain([op.EllipticalRetarder(several, 0.2)], STATE)
     of_values = chain([op.EllipticalRetarder(op.Parameter("v"), 0.2)], STATE)
     for light in (
         chain([op.EllipticalRetarder([*several], 0.2)], STATE).trace(),
         of_values.trace(v=[*several]),
-        of_values.trace(v=several),
         read_back(path, tmp_path).trace(),
     ):
         np.testing.assert_allclose(light.stokes, path.trace().stokes)
-    assert chain([first]).trace(v=several).shape == (3,)
-    op.EllipticalRetarder(s3=[*several])
-    op.EllipticalRetarder([0.1, 0.2])
 
 
 V, B, L = (op.Parameter(name) for name in "vbl")

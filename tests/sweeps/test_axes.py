@@ -190,7 +190,6 @@ MILLION = dict.fromkeys(("delta", "rho", "phi"), np.zeros(10**6))
     [
         ({"n1": IN_PLACE}, NPGR, "is put in place before a path runs; write path.bind(n1=...)"),
         ({"s": [1, 0, 0, 0]}, STATE, "which no axis has; bind it, by path.bind(s=...)"),
-        ({"n": (0.2, 3.4)}, INDEX, "which may be n and k, or the indices of two paths"),
         ({"k1": np.array([0, np.nan])}, NPGR, "parameter 'k1' is nan at 1; give a finite number"),
         ({"k1": np.array([0, -np.inf])}, NPGR, "parameter 'k1' is -inf at 1; give a finite"),
         ({"delta": [0.1, 1.6]}, NPGR, "'delta' is 91.6732 deg at 1, outside its range"),

@@ -221,7 +221,6 @@ CORRELATIONS = [
     [
         (MALUS, {"angle": 0.3}, "a value and its standard uncertainty, such as angle=(0.8, 0.00"),
         (MALUS, {"angle": ([0.1, 0.2, 0.3], [0.1, 0.2])}, "do not broadcast together"),
-        (GLASS, {"m": ([1.5, 0.2], 0.1)}, "may be n and k, or the indices of two paths"),
         (GLASS, {"m": (1.5 + 0.1j, 0.1)}, IN_PARTS),
         (GLASS, {"m": (op.Material(1.5, 0.1), 0.1)}, IN_PARTS),
         (VERTICES, {"points": (CORNER, 0.1)}, "several numbers, which have no uncertainty here"),

@@ -16,7 +16,7 @@ import optipath as op
 from optipath.materials.quantities import YesOrNo
 from paths import chain
 from tables import rows
-from wired import read, read_back, wired
+from wired import read, read_back
 
 
 def test_texts_words_and_none_stand_for_values():
@@ -218,30 +218,10 @@ WAYS = {
 
 
 @rows("way", WAYS)
-def test_a_pair_is_asked_about_however_it_is_given_and_a_list_of_media_is_that_of_indices(way):
-    for pair in ([1.5, 1.6], ["1.5", "1.6"], (1.5, "1.6")):
-        with pytest.raises(op.OptipathError, match=r"may be n and k.*write Material\(1.5, 1.6\)"):
-            WAYS[way](pair)
+def test_a_list_of_media_is_that_of_indices(way):
     indices = np.array([1.5, 1.6 + 0.1j, 2.0])
     media = [op.Material(1.5), op.Material(1.6, 0.1), 2.0]
     np.testing.assert_array_equal(WAYS[way](media).stokes, WAYS[way](indices).stokes)
-
-
-def test_a_pair_that_cannot_be_one_number_is_two_and_others_are_asked_about_once():
-    # An amplitude of 0.9+0.8j would be of more light than comes.
-    assert np.shape(op.Mirror((0.9, 0.8), 0.5).r_s) == (2,)
-    faces = {"A": op.Interface(N, 0.3), "lamp": op.Source(), "eye": op.Detector()}
-    faces["B"] = op.Interface(1.2, op.FOLLOWS, outside=op.FOLLOWS)
-    path = wired(faces, "lamp -> A, A.transmitted -> B, B.transmitted -> eye")
-    for give, word in (
-        (lambda: op.Interface([1.5, -1], 0.3), "is -1.0 at 1; give an index"),
-        (lambda: WAYS["trace"]([1.5, -1]), "is -1.0 at 1; give an index"),
-        (lambda: chain([op.Mirror(op.Parameter("r"))]).trace(r=(0.9, 0.1)), "may be one complex"),
-        (lambda: path.trace(n=[1.5, 0]), "may be n and k"),
-    ):
-        with pytest.raises(op.OptipathError, match=word) as told:
-            give()
-        assert len(told.value.faults) == 1
 
 
 GRID = [4e-7, 5e-7, 6e-7]

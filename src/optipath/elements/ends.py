@@ -6,12 +6,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.element import Element
-from optipath.errors import ValueFault
 from optipath.kernels.catalog import POLARIZED, PRODUCT, UNPOLARIZED
 from optipath.materials.quantities import (
-    INTENSITY,
-    NON_NEGATIVE,
-    Intensity,
+    NonNegative,
     Reads,
     Spectral,
     StokesState,
@@ -21,10 +18,7 @@ from optipath.materials.spectrum import check_response
 from optipath.values.operands import Operation
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from typing import Any
-
-    from optipath.values.domains import Domain
 
 
 class Source(Element, kind="source"):
@@ -54,26 +48,10 @@ class Source(Element, kind="source"):
     inputs: ClassVar[tuple[str, ...]] = ()
     outputs: ClassVar[tuple[str, ...]] = ("out",)
 
-    intensity: Intensity = 1.0
+    intensity: NonNegative = 1.0
     stokes: StokesState | None = None
     physical: YesOrNo = True  # type: ignore[misc] # each source says it for itself
     spectrum: Spectral = None
-
-    def __post_init__(self) -> None:
-        """Ask besides whether four numbers are a state."""
-        argument = self.intensity
-        super().__post_init__()
-        if self.stokes is None and (doubt := INTENSITY.doubt("Source intensity", argument)):
-            raise ValueFault(doubt)
-
-    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
-        """Yield every number; beside a state, four of an intensity are none."""
-        result = super().quantities()
-        if self.stokes is None:
-            return result
-        return (
-            (name, value, NON_NEGATIVE if of is INTENSITY else of) for name, value, of in result
-        )
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the emission into ``out``."""

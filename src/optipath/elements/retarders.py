@@ -15,12 +15,9 @@ from optipath.kernels.catalog import ELLIPTICAL_RETARDER, RETARDER, ROTATION_ALO
 from optipath.materials.crystals import Crystal
 from optipath.materials.quantities import (
     ANGLE,
-    FIRST_ROTATION_ANGLE,
-    ROTATION_ANGLE,
     Angle,
     Axis,
     Birefringence,
-    FirstRotationAngle,
     PartLength,
     RotationAngle,
     Wavelength,
@@ -31,9 +28,6 @@ from optipath.values.operands import Operation
 from optipath.values.wavelength import Wavelength as WavelengthParameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from optipath.values.domains import Domain
     from optipath.values.parameters import Parameter
 
 
@@ -256,30 +250,10 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
 
     mirrored: ClassVar[tuple[str, ...]] = ("s2",)
 
-    s1: FirstRotationAngle = 0.0
+    s1: RotationAngle = 0.0
     s2: RotationAngle = 0.0
     s3: RotationAngle = 0.0
     azimuth: Angle = 0.0
-
-    def __post_init__(self) -> None:
-        """Ask besides whether three numbers are the vector."""
-        argument = self.s1
-        super().__post_init__()
-        request = FIRST_ROTATION_ANGLE.doubt("EllipticalRetarder s1", argument)
-        if request and self._is_of_one_component:
-            raise ValueFault(request)
-
-    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
-        """Yield every number; beside others, three of s1 are no vector."""
-        result = super().quantities()
-        if self._is_of_one_component:
-            return result
-        first = FIRST_ROTATION_ANGLE
-        return ((name, value, ROTATION_ANGLE if of is first else of) for name, value, of in result)
-
-    @property
-    def _is_of_one_component(self) -> bool:
-        return vanishes(self.s2) and vanishes(self.s3)
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the rotation, by the cheapest kernel that is right."""

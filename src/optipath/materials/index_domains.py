@@ -12,7 +12,7 @@ import numpy.typing as npt
 from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
 from optipath.materials.material import LEAST, K, Material, index_of
 from optipath.values.arrays import first_place, read_only
-from optipath.values.domains import Domain, OptionalDomain, in_unit_of, pair_in
+from optipath.values.domains import Domain, OptionalDomain, in_unit_of, is_real
 from optipath.values.jax_values import namespace
 from optipath.values.precision import held
 
@@ -128,22 +128,14 @@ class IndexDomain(_IndexOrMaterial):
             return value != 0.0 <= value.real < math.inf and 0.0 <= value.imag < math.inf
         return type(value) is float and 0.0 < value < math.inf
 
-    def doubt(self, owner: str, value: Any) -> str:
-        if (pair := pair_in(value, self)) is None:
-            return ""
-        n, k = pair
-        return Fault(
-            f"{owner} is {value}, which may be n and k, or the indices of two paths",
-            Cure(
-                f"write Material({n}, {k}) or {n}{k:+}j for the one, np.array([{n}, {k}]) for the "
-                f"other",
-                f"write {{ n = {n}, k = {k} }} for the one, {{ n = [{n}, {k}] }} for the other",
-            ),
-        )
-
     def read(self, owner: str, value: Any) -> Any:
-        if doubt := self.doubt(owner, value):
-            raise ValueFault(doubt)
+        if isinstance(value, (list, tuple)) and len(value) == 2 and all(map(is_real, value)):
+            n, k = value
+            cure = Cure(
+                f"write {n}{k:+}j for one index, np.array([{n}, {k}]) for two paths",
+                f"write {{ n = {n}, k = {k} }} for one index, {{ n = [{n}, {k}] }} for two paths",
+            )
+            raise ValueFault(Fault(f"{owner} is {value}", cure))
         return super().read(owner, value)
 
     def described(self) -> str:

@@ -33,9 +33,7 @@ from optipath.values.domains import (
     Choice,
     Domain,
     ExtinctionDomain,
-    FirstComponentDomain,
     FractionDomain,
-    IntensityDomain,
     OptionalDomain,
     StokesDomain,
     WholeNumber,
@@ -116,8 +114,6 @@ ANGLE = Domain("angle", "angle")
 Angle: TypeAlias = Annotated[Quantity, ANGLE]
 ROTATION_ANGLE = Domain("component of a rotation vector", "angle", -1e15, 1e15)
 RotationAngle: TypeAlias = Annotated[Quantity, ROTATION_ANGLE]
-FIRST_ROTATION_ANGLE = FirstComponentDomain(ROTATION_ANGLE.name, "angle", -1e15, 1e15)
-FirstRotationAngle: TypeAlias = Annotated[Quantity, FIRST_ROTATION_ANGLE]
 Axis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle")]
 OptionalAxis: TypeAlias = Annotated[Quantity, OptionalAxisDomain("angle", "angle")]
 INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
@@ -129,8 +125,6 @@ FollowedIncidence: TypeAlias = Annotated[
 Fraction: TypeAlias = Annotated[Quantity, FractionDomain("fraction", minimum=0.0, maximum=1.0)]
 NON_NEGATIVE = Domain("number", minimum=0.0)
 NonNegative: TypeAlias = Annotated[Quantity, NON_NEGATIVE]
-INTENSITY = IntensityDomain(NON_NEGATIVE.name, minimum=NON_NEGATIVE.minimum)
-Intensity: TypeAlias = Annotated[Quantity, INTENSITY]
 Spectral: TypeAlias = Annotated[Quantity | Curve | None, SPECTRAL]
 Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]

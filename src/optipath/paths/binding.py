@@ -6,7 +6,7 @@ from dataclasses import fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, ParameterError
+from optipath.errors import OptipathError, ParameterError, collecting
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     extinctions_with,
@@ -93,8 +93,12 @@ def materials_placed(
             placed[name] = curve_values(material, Wavelength())[0] if curve else material
             del plain[name]
             continue
-        if doubts := [doubt for use in places if (doubt := use.doubt(material))]:
-            faults.append(doubts[0])
+        wrong: list[str] = []
+        with collecting(wrong):
+            for use in places:
+                use.refuse_material(material)
+        if wrong:
+            faults += wrong
             continue
         other = extinctions_with(uses, name)
         arguments: dict[str, Any] = {name: material.n} if other else {name: material}

@@ -19,7 +19,7 @@ from optipath.values.curve_value import computed_values
 from optipath.values.jax_values import is_traced
 from optipath.values.messages import no_value
 from optipath.values.operands import Ranges
-from optipath.values.parameters import THERE, Resolved, unknown_parameter
+from optipath.values.parameters import THERE, Resolved, is_material, unknown_parameter
 from optipath.values.use import axes_for
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ class Inputs:
                 unchecked.add(name)
             else:
                 try:
-                    self.ask_in_doubt(name, value)
+                    self.refuse_materials(name, value)
                     value = axes_for(name, value, self.uses)
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
@@ -192,13 +192,14 @@ class Inputs:
 
     __hash__ = None  # type: ignore[assignment]
 
-    def ask_in_doubt(self, name: str, value: Any) -> None:
-        """Raise at the first place where a value may be one or several, or is not known yet."""
+    def refuse_materials(self, name: str, value: Any) -> None:
+        """Raise where a material is given that is not known yet, or for what is no index."""
         if late := passed_too_late(name, value):
             raise ParameterError(late)
-        for use in self.uses:
-            if use.value.name == name and (doubt := use.doubt(value)):
-                raise ParameterError(doubt)
+        if is_material(value):
+            for use in self.uses:
+                if use.value.name == name:
+                    use.refuse_material(value)
 
     def _batch(self) -> tuple[int, ...]:
         return joint_shape(*self.shapes.values())

@@ -156,7 +156,7 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         if several is not None:
             return several
     if not labelled:
-        inputs.ask_in_doubt(name, value)
+        inputs.refuse_materials(name, value)
     numbers = value.values if labelled else known(value)
     array = as_argument(f"parameter '{name}'", numbers, ParameterError)
     _check_one_dimension(name, array.shape)

@@ -178,9 +178,6 @@ def _value(inputs: Inputs, name: str, value: Any) -> Any:
     if isinstance(value, Material):
         raise ParameterError(in_parts)
     check_known(f"propagate({name}=...)", value)
-    for use in inputs.uses:
-        if use.value.name == name and (doubt := use.doubt(value)):
-            raise ParameterError(doubt)
     value, present = inputs.numbers_for(name, axes_for(name, value, inputs.uses))
     if not np.all(present):
         raise ParameterError(

@@ -127,11 +127,6 @@ class Domain:
         """Return a value with numbers in place of texts."""
         return numbers_for(owner, value, self.parse)
 
-    def doubt(self, owner: str, value: Any) -> str:
-        """Ask what a value means that may be one or several; mostly nothing."""
-        del owner, value
-        return ""
-
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""
         return read_only(value, (self.minimum, self.maximum))
@@ -291,26 +286,6 @@ _REAL = (float, int, np.floating, np.integer)
 _LARGEST = sys.float_info.max
 
 
-def is_pair(value: Any) -> bool:
-    """Tell whether a value is two real numbers written by hand; arrays are of several paths.
-
-    >>> is_pair((0.2, 3.4)), is_pair(["0.2", "3.4"]), is_pair((1.5, 1.6, 1.7))
-    (True, True, False)
-    >>> is_pair(np.array([0.2, 3.4]))
-    False
-    """
-    return isinstance(value, (tuple, list)) and len(value) == 2 and None not in _numbers(value)
-
-
-def pair_in(value: Any, domain: Domain) -> tuple[float, float] | None:
-    """Return two real numbers written by hand that may be the parts of one; None for all else."""
-    if not is_pair(value):
-        return None
-    first, second = _numbers(value)
-    one = np.asarray(complex(first, second))
-    return (first, second) if domain.allows(one) else None
-
-
 def is_real(number: Any) -> bool:
     """Tell whether something is a finite real number, and no array of it.
 
@@ -319,45 +294,6 @@ def is_real(number: Any) -> bool:
     """
     of_type = isinstance(number, _REAL) and not isinstance(number, bool)
     return of_type and -_LARGEST <= number <= _LARGEST
-
-
-def _numbers(value: Any) -> list[Any]:
-    """Return the real number that each entry is, or stands for; None for what is none."""
-    read = [_read(entry) if isinstance(entry, str) else entry for entry in value]
-    return [number if is_real(number) else None for number in read]
-
-
-def _read(text: str) -> float | None:
-    try:
-        return float(text)
-    except ValueError:
-        return None
-
-
-_COMPONENTS = 3
-
-
-class FirstComponentDomain(Domain):
-    """The first component of a rotation vector, of which three may be the vector itself.
-
-    >>> FirstComponentDomain("component of a rotation vector", "angle").doubt("s1", [0.1, 0.2])
-    ''
-    """
-
-    def doubt(self, owner: str, value: Any) -> str:
-        if not _may_be_a_vector(value):
-            return ""
-        parts = ", ".join(map(repr, value))
-        return (
-            f"{owner} is {value}, which may be a rotation vector, or s1 of three paths; write "
-            f"EllipticalRetarder({parts}) for the one, np.array([{parts}]) for the other"
-        )
-
-
-def _may_be_a_vector(value: Any) -> bool:
-    """Tell whether a value is three numbers, or their texts, written by hand."""
-    listed = isinstance(value, (list, tuple)) and len(value) == _COMPONENTS
-    return listed and all(isinstance(part, str) or is_real(part) for part in value)
 
 
 class WholeNumber(Domain):
@@ -412,24 +348,6 @@ class AmplitudeDomain(Domain):
 
     complex_parts = ("re", "im")
 
-    def doubt(self, owner: str, value: Any) -> str:
-        if (pair := pair_in(value, self)) is None:
-            return ""
-        re, im = pair
-        return Fault(
-            f"{owner} is {value}, which may be one complex number, or the amplitudes of two paths",
-            Cure(
-                f"write complex({re}, {im}) for the one, np.array([{re}, {im}]) for the other",
-                f"write {{ re = {re}, im = {im} }} for the one, {{ re = [{re}, {im}] }} for the "
-                f"other",
-            ),
-        )
-
-    def read(self, owner: str, value: Any) -> Any:
-        if doubt := self.doubt(owner, value):
-            raise ValueFault(doubt)
-        return super().read(owner, value)
-
     @property
     def interval(self) -> tuple[float, float]:
         """The limits of both parts."""
@@ -452,25 +370,6 @@ class AmplitudeDomain(Domain):
         bad = ~self.allows(array)
         if np.any(bad):
             raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
-
-
-class IntensityDomain(Domain):
-    """Numbers that are not negative, of which four may be a state of polarisation."""
-
-    def doubt(self, owner: str, value: Any) -> str:
-        if not _may_be_a_state(value):
-            return ""
-        return (
-            f"{owner} is {value}, which may be a state, or the intensities of four paths; give "
-            f"stokes={value} to the Source for the one, np.array({[*value]}) for the other"
-        )
-
-
-def _may_be_a_state(value: Any) -> bool:
-    """Tell whether four numbers written by hand are light that is polarised by 100 % at most."""
-    if not isinstance(value, (list, tuple)) or len(value) != 4 or not all(map(is_real, value)):
-        return False
-    return math.hypot(*map(float, value[1:])) <= float(value[0])
 
 
 @dataclass(frozen=True)

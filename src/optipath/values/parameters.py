@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
 
-_ASIDE = {"scale", "offset", "offset_dimension", "is_listed", "is_material"}
+_ASIDE = {"scale", "offset", "offset_dimension", "is_material"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +83,6 @@ class Parameter(Affine):
 
     Attributes
     ----------
-    is_listed : bool
-        Whether the default was given as a list, which may be one value by its parts.
     is_material : bool
         Whether it was given as a `Material`, which stands for an index of refraction.
 
@@ -116,7 +114,6 @@ class Parameter(Affine):
     scale: float = 1.0
     offset: float = 0.0
     offset_dimension: str = ""
-    is_listed: bool = field(default=False, init=False, repr=False)
     is_material: bool = field(default=False, init=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -140,7 +137,6 @@ class Parameter(Affine):
             )
         if (argument := self.default) is not None:
             default = read_only(self._as_number(argument), (low, high), widened=False)
-            vars(self)["is_listed"] = isinstance(argument, (list, tuple))
             vars(self).update(default=default, is_material=is_material(argument))
             self.resolve(default)
             # Whoever binds a value looks at it where it stands.

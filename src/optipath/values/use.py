@@ -22,7 +22,6 @@ from optipath.values.parameters import (
     AXES,
     THERE,
     Parameter,
-    is_material,
     unknown_word,
     warn_where_it_stands,
     word_meant,
@@ -120,29 +119,21 @@ class Use:
             )
         self.value.check_place(self.owner, self.domain)
         default = self.value.default
-        if self.value.is_listed and (doubt := self.doubt(default.tolist())):
-            raise ValueFault(doubt)
-        if self.value.is_material and not self.domain.takes_materials:
-            raise ValueFault(self._no_index(default))
+        if self.value.is_material:
+            self.refuse_material(default)
         if type(default) is float:
             # Whether a number is in the range was asked when the parameter was made.
             self.check_arguments(default)
         elif default is not None:
             self.check_arguments(*self.value.resolve(default))
 
-    def doubt(self, argument: Any) -> str:
-        """Ask what a list or a `Material` that is given for the parameter means; mostly nothing."""
-        if is_material(argument) and not self.domain.takes_materials:
-            return self._no_index(argument)
-        if not isinstance(argument, (list, tuple)):
-            return ""
-        return self.domain.doubt(f"parameter '{self.value.name}' (at {self.owner})", argument)
-
-    def _no_index(self, material: Any) -> str:
-        return (
-            f"parameter '{self.value.name}' (at {self.owner}) is {material}, but a Material stands "
-            f"for an index of refraction; give {self.domain.described()}"
-        )
+    def refuse_material(self, material: Any) -> None:
+        """Raise where a `Material` is given for what is no index of refraction."""
+        if not self.domain.takes_materials:
+            raise ValueFault(
+                f"parameter '{self.value.name}' (at {self.owner}) is {material}, but a Material "
+                f"stands for an index of refraction; give {self.domain.described()}"
+            )
 
     def check_arguments(
         self,

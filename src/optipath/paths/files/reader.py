@@ -248,8 +248,6 @@ def _argument(raw: Any, parameter: Parameter, uses: list[Use]) -> Any:
     """Return what a case gives for a parameter, which is allowed wherever that stands."""
     value = decode_argument(raw, parameter, uses)
     parameter.resolve(value)
-    if doubts := [doubt for use in uses if isinstance(value, list) and (doubt := use.doubt(value))]:
-        raise PresetError(*doubts)
     return value
 
 

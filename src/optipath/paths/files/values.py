@@ -38,9 +38,6 @@ from optipath.values.curve_value import CurveValue
 from optipath.values.domains import (
     Choice,
     Domain,
-    FirstComponentDomain,
-    IntensityDomain,
-    is_pair,
 )
 from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
@@ -54,9 +51,6 @@ if TYPE_CHECKING:
 
 _AFFINE = {"parameter": str, "scale": object, "offset": object}
 """The keys of a multiple of a parameter with an offset."""
-
-_LISTED = (IntensityDomain, FirstComponentDomain)
-"""Domains whose lists are of several paths in a file, which has a key for each part."""
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -76,8 +70,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return _of_table(raw, domain, parameters)
     if isinstance(raw, str):
         return _of_text(raw, domain, parameters)
-    number = _several if isinstance(domain, _LISTED) else _number
-    return number(raw, domain.unit)
+    return _number(raw, domain.unit)
 
 
 def _of_table(raw: dict[str, Any], domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -90,8 +83,9 @@ def _of_table(raw: dict[str, Any], domain: Domain, parameters: Mapping[str, Para
         return _affine(raw, domain, parameters)
     if isinstance(domain, (IndexDomain, OutsideDomain)):
         parts = _parts(raw, domain, parameters)
-        several = parts.keys() == {"n"} and is_pair(parts["n"])
-        return np.array(parts["n"]) if several else Material(**parts)
+        if parts.keys() == {"n"} and isinstance(parts["n"], list):
+            return np.array(parts["n"])
+        return Material(**parts)
     if domain.complex_parts:
         return _complex(_parts(raw, domain, {}))
     if isinstance(domain, VerticesDomain):
@@ -119,9 +113,7 @@ def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) ->
         return parameter.parse(value) if isinstance(value, str) else value
     if isinstance(raw, list):
         several = [decode_argument(entry, parameter, uses) for entry in raw]
-        # A pair is asked about where the parameter stands.
-        numbers = {*map(type, several)} == {float} and not is_pair(raw)
-        return array_of("the value", several) if numbers else several
+        return array_of("the value", several) if {*map(type, several)} == {float} else several
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))
@@ -220,12 +212,6 @@ def _complex(parts: Mapping[str, Any]) -> Any:
     except ValueError:
         names = " and ".join(f"'{name}'" for name in parts)
         raise UnitError(f"the shapes of {names} do not fit; make all rows equally long") from None
-
-
-def _several(raw: Any, unit: str = "") -> Any:
-    """Return a number, or an array of several: a file asks of pairs alone."""
-    number = _number(raw, unit)
-    return array_of("the value", number) if isinstance(number, list) else number
 
 
 def _one_number(raw: Any, unit: str) -> Any:

@@ -12,13 +12,13 @@ import numpy as np
 from optipath.composer.path_values import Values
 from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean
-from optipath.materials.index_domains import INDEX
+from optipath.materials.index_domains import INDEX, IndexDomain
 from optipath.materials.quantities import ANGLE
 from optipath.paths.files.schema import FORMAT, Faults
 from optipath.paths.files.values import encode, entry_domain, wavelength_names
 from optipath.paths.place_choice import choice_faults
 from optipath.values.cases import name_faults
-from optipath.values.domains import Choice, is_pair
+from optipath.values.domains import Choice
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
 
@@ -48,7 +48,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     }
     wavelengths = wavelength_names([*elements.values()])
     for name, parameter in parameters.items():
-        row = _parameter(parameter, parts.get(name))
+        row = _parameter(parameter, parts.get(name, INDEX.complex_parts))
         if name in wavelengths and dimension_of(parameter.unit) == "length":
             row.setdefault("range", [-np.inf, np.inf])  # Without it, it has that of wavelengths.
         tables.append(toml_lines(f"[parameters.{_key(name)}]", row))
@@ -91,10 +91,10 @@ def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
     }
 
 
-def _parameter(parameter: Parameter, complex_parts: tuple[str, ...] | None) -> dict[str, Any]:
+def _parameter(parameter: Parameter, complex_parts: tuple[str, ...]) -> dict[str, Any]:
     unit, default = parameter.unit, parameter.default
     limits = parameter.minimum, parameter.maximum
-    row = {} if default is None else {"default": _number(default, unit, complex_parts)}
+    row = {} if default is None else {"default": encode(default, unit, complex_parts)}
     others = {
         "unit": unit,
         "range": [encode(end, unit) for end in limits] if np.isfinite(limits).any() else None,
@@ -134,14 +134,10 @@ def _field(value: Any, domain: Domain) -> Any:
     each = entry_domain(domain)
     if each is not None and isinstance(value, tuple):
         return [_field(one, each) for one in value]
-    return _number(value, domain.unit, domain.complex_parts)
-
-
-def _number(value: Any, unit: str, complex_parts: tuple[str, ...] | None) -> Any:
-    """Write a value; numbers of two paths as first parts, if they might be one complex number."""
-    if complex_parts and isinstance(value, np.ndarray) and is_pair(value.tolist()):
-        return {complex_parts[0]: encode(value, unit)}
-    return encode(value, unit, complex_parts or INDEX.complex_parts)
+    is_pair = isinstance(value, np.ndarray) and value.shape == (2,) and value.dtype.kind == "f"
+    if is_pair and isinstance(domain, IndexDomain):
+        return {"n": encode(value, "")}  # A list of two is refused, as n and k of one index.
+    return encode(value, domain.unit, domain.complex_parts or INDEX.complex_parts)
 
 
 def _case(
@@ -150,7 +146,7 @@ def _case(
     values = {}
     for name, value in case.values.items():
         unit = parameters[name].unit if name in parameters else ""
-        values[name] = _number(value, unit, parts.get(name))
+        values[name] = encode(value, unit, parts.get(name, INDEX.complex_parts))
     published = {name: list(stokes) for name, stokes in case.published.items()}
     others = {"published": published, "note": case.note}
     return {"values": values} | {key: value for key, value in others.items() if value}
