@@ -286,7 +286,7 @@ def test_on_the_way_back_from_a_mirror_the_turns_add_up_where_the_field_is_seen_
         ({"angle": op.Parameter("a"), "field": B}, "angle is given beside field; give the angle"),
         ({"verdet": 2.0, "field": B, "length": -0.1}, "length is -100 mm; give a real length"),
         ({"verdet": "2 rad", "field": B, "length": L}, "'2 rad' is no Verdet constant; use one of"),
-        ({"verdet": 1.0, "field": "2 tesla", "length": L}, "did you mean 'T'"),
+        ({"verdet": 1.0, "field": "2 tesla", "length": L}, "there are: T, mT, G, kG"),
         ({"verdet": 1.0, "field": 1e7, "length": L}, "field is 1e.07 T; give a real magnetic"),
     ],
 )

@@ -155,7 +155,7 @@ def test_the_axis_of_an_array_with_units_has_the_very_numbers_of_its_texts(data)
     "value, told",
     [
         (labelled([10.0, 48.0]), "is a DataArray without a unit; write one of deg, rad"),
-        (labelled([10.0, 48.0], "degrees"), "did you mean 'deg'?"),
+        (labelled([10.0, 48.0], "degs"), "did you mean 'deg'?"),
         (labelled([10.0, 48.0], "nm"), "'1 nm' is no angle"),
         (labelled([10.0, 48.0], 3), "is a DataArray of unit 3; write one of deg"),
         (labelled([10 + 1j], "deg"), "'(10+1j) deg' is not a quantity"),
@@ -171,7 +171,7 @@ def test_the_axis_of_an_array_with_units_has_the_very_numbers_of_its_texts(data)
         (op.CosSin(0.6, 0.8), "is a cosine and a sine, which no axis shows; give the angle"),
         (op.Material(1.5), "a Material stands for an index of refraction"),
         ([0.1, 1 + 1j], "is complex"),
-        ("0:90:91", "'0:90:91' has no unit; write '0 deg:90 deg:91' if it is in deg"),
+        ("0:90:91", "'0' has no unit, but an angle is asked for"),
         ("0 nm:90 nm:91", "'0 nm' is no angle"),
     ],
 )

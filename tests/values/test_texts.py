@@ -88,7 +88,7 @@ NO_NUMBERS = [
     (lambda: op.Interface("1.5 deg", 0.1), "has the unit 'deg', but a pure number is asked"),
     (lambda: op.CosSin("30 deg", "0.5"), "cos: '30 deg' has a unit.*; give the angle itself"),
     (lambda: op.Parameter("t", "30 dge"), "unit 'dge' is unknown; did you mean 'deg'"),
-    (lambda: op.Parameter("t", "0.1/mm"), "'0.1/mm' is not a quantity; did you mean '0.1 1/mm'"),
+    (lambda: op.Parameter("t", "0.1/mm"), "'0.1/mm' is not a quantity; write a number"),
     (lambda: op.Parameter("t", minimum="0 nm", maximum="9 deg"), "maximum.*'9 deg' is no leng"),
     (lambda: op.Frame().turned("30"), "the angle of a turn: '30' has no unit"),
     (lambda: op.refraction_angle(1.5, "40"), "incidence: '40' has no unit"),
@@ -163,33 +163,23 @@ def test_a_list_has_its_texts_one_by_one_a_range_those_between_and_a_single_valu
 
 
 @rows(
-    "text, told, cure",
+    "text, told",
     [
-        ("0 deg:90 deg", "does not say how many values", "0 deg:90 deg:11"),
-        *(("90:0:-1", "for steps of 1", "90:0:91"), ("0:90:0.5", "for steps of 0.5", "0:90:181")),
-        ("0:90:1", "counts one value from 0 to 90", "0:90:2"),
-        ("400:700:61 nm", "'61 nm' of '400:700:61 nm' is no count", "400 nm:700 nm:61"),
-        ("0:90 deg:91", "a unit at one end alone", "0 deg:90 deg:91"),
-        ("0,5:1:11", "a number with a comma", "0.5:1:11"),
-        ("10,20 deg", "may be a number with a comma, or two", "10 deg, 20 deg"),
-        ("0:90:0", "counts no values", ""),
-        ("0:90:nan", "is no count, which is a whole number", ""),
-        *((text, "is no range; write start:stop:count", "") for text in ("0::3", "1:2:3:4")),
-        ("a:b:3", "'a' of 'a:b:3' is no number with a unit", ""),
-        ("0 deg:1 rad:3", "are in deg and in rad", ""),
-        ("0:1:1000001", "a text stands for 1000000 at most", ""),
-        ("1e-999999999:1:3", "beyond the numbers that floats are", ""),
-        ("0:90:91,120", "'0:90:91' is in a list, and a range stands alone", ""),
-        *(("10,,20", "has nothing between two commas", ""), ("1,000,000", "may be thousands", "")),
+        *((text, "is no range; write start:stop:count") for text in ("0 deg:90 deg", "1:2:3:4")),
+        *(
+            (f"0:90:{count}", f"'{count}' of '0:90:{count}' is no count")
+            for count in (-1, 0.5, 0, 1)
+        ),
+        ("400:700:61 nm", "'61 nm' of '400:700:61 nm' is no count of values; write start:stop"),
+        *((f"0 deg:{end}:3", "differ in their units") for end in ("1 rad", "90")),
+        *((f"{end}:1:3", "is no number with a unit") for end in ("", "a", "1e-999999999")),
+        ("0:1:1000001", "a text stands for 1000000 at most"),
     ],
 )
-def test_what_is_wrong_is_told_with_a_cure_that_works(text, told, cure):
+def test_what_is_wrong_with_a_range_is_told(text, told):
     with pytest.raises(op.ParameterError, match=r"^parameter 'delta': ") as caught:
         several_texts(DELTA, text)
     assert told in str(caught.value)
-    if cure:
-        assert f"'{cure}'" in str(caught.value)
-        assert len(several_texts(DELTA, cure)) > 1
 
 
 POLARIZER = op.Parameter("filter", unit="deg", words={"horizontal": 0.0}, optional=True)

@@ -21,7 +21,6 @@ from optipath.composer.wiring import (
 )
 from optipath.errors import Cure, Fault, PathError
 from optipath.values.operands import Operand
-from optipath.values.use import remember_sound
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,7 +43,7 @@ def refuse_faults(values: Values, wiring: Wiring, media: Media, unfollowed: list
     if faults:
         raise PathError(*faults)
     for _, element in values.graph.nodes(data="element"):
-        remember_sound(element)
+        vars(element)["_is_sound"] = True
 
 
 def _faults(values: Values, wiring: Wiring, media: Media) -> list[str]:

@@ -16,7 +16,6 @@ from optipath.materials.material import Material
 from optipath.values.agreement import Agreement, text_of
 from optipath.values.arrays import changed
 from optipath.values.operands import operand_of
-from optipath.values.use import not_known_sound
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -41,7 +40,7 @@ class MediaOfBoundary:
     def taking_over(self, **values: Any) -> Any:
         """Return a boundary like it with values of the one before in place of `FOLLOWS`."""
         face: Any = self
-        return not_known_sound(changed(face, **values))
+        return changed(face, _is_sound=False, **values)
 
 
 _ROUNDING = 1e-9

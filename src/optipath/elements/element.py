@@ -30,10 +30,7 @@ from optipath.values.use import (
     AxisDomain,
     Use,
     faults_of,
-    is_known_sound,
     make_sound,
-    not_known_sound,
-    remember_sound,
 )
 
 if TYPE_CHECKING:
@@ -157,6 +154,7 @@ class Element(Chainable):
     mirrored: ClassVar[tuple[str, ...] | None] = None
     _ports_back: ClassVar[dict[str, str]] = {}
     _kernel: ClassVar[Kernel | None] = None
+    _is_sound: ClassVar[bool] = False  # Whether the values have been checked, and are allowed.
 
     __array_ufunc__ = None  # NumPy's arrays leave products to it.
 
@@ -176,7 +174,7 @@ class Element(Chainable):
         """Keep numbers for texts, read-only arrays, parameters in a unit; refuse all faults."""
         of_fields = type(self).quantities is Element.quantities
         if make_sound(self, self.domains(), self.quantities, of_fields=of_fields):
-            remember_sound(self)
+            vars(self)["_is_sound"] = True
 
     def named(self, name: str) -> NamedElement:
         """Return the element with the name of its node in a chain.
@@ -240,7 +238,7 @@ class Element(Chainable):
 
     def uses(self, owner: str) -> list[Use]:
         """Return the numbers that the values are made of, each with what it must be."""
-        sound = is_known_sound(self)
+        sound = self._is_sound
         return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
 
     def agreements(self, owner: str) -> Iterable[Agreement]:
@@ -549,7 +547,7 @@ def with_values(element: E, **values: Any) -> E:
     Rotator(angle=-0.5)
     """
     stored = {name: read_only(value, widened=False) for name, value in values.items()}
-    result = not_known_sound(changed(element, **stored))
+    result = changed(element, _is_sound=False, **stored)
     if faults := result.faults(element.kind or type(element).__name__):
         raise PathError(*(f"on the way back, {fault}" for fault in faults))
     return result

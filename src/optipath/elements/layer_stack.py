@@ -41,7 +41,7 @@ from optipath.values.agreement import Agreement, text_of
 from optipath.values.angles import calls_up
 from optipath.values.arrays import changed
 from optipath.values.operands import NOTHING, Operand, Operation, operand_of
-from optipath.values.use import Use, not_known_sound
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
@@ -266,7 +266,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         """Return a stack like it with values of the boundary before in place of `FOLLOWS`."""
         if "outside" in values:
             values["indices"] = (values.pop("outside"), *self._media[1:])
-        return not_known_sound(changed(self, **values))
+        return changed(self, _is_sound=False, **values)
 
     @property
     def outside(self) -> Any:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
 from optipath.materials.material import LEAST, K, Material, index_of
 from optipath.values.arrays import first_place, read_only
-from optipath.values.domains import Domain, OptionalDomain, in_unit_of, is_real
+from optipath.values.domains import Domain, in_unit_of, is_real
 from optipath.values.jax_values import namespace
 from optipath.values.precision import held
 
@@ -97,7 +97,7 @@ class _IndexOrMaterial(Domain):
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, Material):
-            return [(name, value, self)]
+            return super().parts(name, value)
         of_n, of_k = self.domains_of(value)
         return [(f"{name}.n", value.n, of_n), (f"{name}.k", value.k, of_k)]
 
@@ -207,16 +207,8 @@ class FollowedLitIndex(Followed, LitIndexDomain):
     """The same, or that of the boundary before."""
 
 
-class OptionalLitIndex(OptionalDomain, LitIndexDomain):
-    """The same, or none."""
-
-
 class FollowedOutside(Followed, OutsideDomain):
     """The same, or that of the boundary before."""
-
-
-class OptionalOutside(OptionalDomain, OutsideDomain):
-    """The same, or none."""
 
 
 class LitBehind(OutsideDomain):
@@ -239,9 +231,9 @@ INDEX = IndexDomain("index of refraction")
 OUTSIDE = OutsideDomain("index of refraction")
 LIT_INDEX = LitIndexDomain("index of refraction")
 FOLLOWED_LIT_INDEX = FollowedLitIndex("index of refraction")
-OPTIONAL_LIT_INDEX = OptionalLitIndex("index of refraction")
+OPTIONAL_LIT_INDEX = LitIndexDomain("index of refraction", optional=True)
 FOLLOWED_OUTSIDE = FollowedOutside("index of refraction")
-OPTIONAL_OUTSIDE = OptionalOutside("index of refraction")
+OPTIONAL_OUTSIDE = OutsideDomain("index of refraction", optional=True)
 LIT_BEHIND = LitBehind(
     "index of refraction",
     why=", since light comes from there too (by port 'back'), and let a Medium absorb between",

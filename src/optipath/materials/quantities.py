@@ -34,14 +34,13 @@ from optipath.values.domains import (
     Domain,
     ExtinctionDomain,
     FractionDomain,
-    OptionalDomain,
     StokesDomain,
     WholeNumber,
     YesNo,
 )
 from optipath.values.parameters import Parameter
 from optipath.values.units import in_unit
-from optipath.values.use import AxisDomain, OptionalAxisDomain
+from optipath.values.use import AxisDomain
 from optipath.values.wavelength import LONGEST
 from optipath.values.wavelength import WAVELENGTH as VACUUM_WAVELENGTH
 from optipath.values.wavelength import Wavelength as WavelengthParameter
@@ -70,7 +69,7 @@ def _is_wavelength(text: str) -> bool:
         return False
 
 
-class SpectralDomain(OptionalDomain):
+class SpectralDomain(Domain):
     """Numbers that are not negative, of which a spectrum gives one for each wavelength; or None.
 
     >>> SPECTRAL.parts("spectrum", None)
@@ -102,7 +101,7 @@ class SpectralDomain(OptionalDomain):
         return f"a Spectrum, or {super().described()}"
 
 
-SPECTRAL = SpectralDomain("number", minimum=0.0)
+SPECTRAL = SpectralDomain("number", minimum=0.0, optional=True)
 
 
 Quantity: TypeAlias = npt.ArrayLike | Parameter
@@ -115,7 +114,7 @@ Angle: TypeAlias = Annotated[Quantity, ANGLE]
 ROTATION_ANGLE = Domain("component of a rotation vector", "angle", -1e15, 1e15)
 RotationAngle: TypeAlias = Annotated[Quantity, ROTATION_ANGLE]
 Axis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle")]
-OptionalAxis: TypeAlias = Annotated[Quantity, OptionalAxisDomain("angle", "angle")]
+OptionalAxis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle", optional=True)]
 INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
 Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
 FollowedIncidence: TypeAlias = Annotated[
@@ -152,27 +151,27 @@ RotatoryPower: TypeAlias = Annotated[
 PART_LENGTH = Domain("length", "length", minimum=0.0, maximum=1e3, own_unit="mm")
 """Of a part that stands on a bench, so that what it turns or retards by is a number."""
 PartLength: TypeAlias = Annotated[Quantity, PART_LENGTH]
-OptionalPartLength: TypeAlias = Annotated[
-    Quantity, OptionalDomain("length", "length", 0.0, PART_LENGTH.maximum, own_unit="mm")
-]
-OptionalAngle: TypeAlias = Annotated[Quantity, OptionalDomain("angle", "angle")]
+OptionalPartLength: TypeAlias = Annotated[Quantity, replace(PART_LENGTH, optional=True)]
+OptionalAngle: TypeAlias = Annotated[Quantity, Domain("angle", "angle", optional=True)]
 VerdetConstant: TypeAlias = Annotated[
-    Quantity, OptionalDomain("Verdet constant", "Verdet constant", -1e9, 1e9)
+    Quantity, Domain("Verdet constant", "Verdet constant", -1e9, 1e9, optional=True)
 ]
 MagneticField: TypeAlias = Annotated[
-    Quantity, OptionalDomain("magnetic field", "magnetic field", -1e6, 1e6)
+    Quantity, Domain("magnetic field", "magnetic field", -1e6, 1e6, optional=True)
 ]
 WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=LONGEST, own_unit="m")
 Wavelength: TypeAlias = Annotated[Quantity, replace(WAVELENGTH, name="wavelength", own_unit="nm")]
 OptionalWavelength: TypeAlias = Annotated[
-    Quantity, OptionalDomain("wavelength", "length", minimum=1e-12, maximum=LONGEST, own_unit="nm")
+    Quantity, replace(WAVELENGTH, name="wavelength", own_unit="nm", optional=True)
 ]
 Birefringence: TypeAlias = Annotated[Quantity, Domain("birefringence", minimum=-10, maximum=10)]
 EXTINCTION = ExtinctionDomain("extinction ratio", minimum=1.000001)
 ExtinctionRatio: TypeAlias = Annotated[Quantity, EXTINCTION]
 HANDEDNESSES = ("right", "left")
 Handedness: TypeAlias = Annotated[str, Choice("handedness", words=HANDEDNESSES)]
-StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
+StokesState: TypeAlias = Annotated[
+    Quantity, StokesDomain("Stokes vector", tail=(4,), optional=True)
+]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
 Whole: TypeAlias = Annotated[int, WholeNumber("whole number")]
 READINGS = ("stokes", "linear", "intensity")

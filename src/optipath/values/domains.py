@@ -34,6 +34,7 @@ class Domain:
     maximum: float = np.inf
     tail: tuple[int, ...] = ()
     own_unit: str = ""
+    optional: bool = False  # Whether it may be None.
 
     @property
     def unit(self) -> str:
@@ -143,7 +144,7 @@ class Domain:
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         """Return the numbers that make up a value: their names, values and domains."""
-        return [(name, value, self)]
+        return [] if value is None and self.optional else [(name, value, self)]
 
     def described(self) -> str:
         """Say in words which values are allowed."""
@@ -271,17 +272,6 @@ class ExtinctionDomain(Domain):
         )
 
 
-class OptionalDomain(Domain):
-    """The numbers of a domain, or None.
-
-    >>> OptionalDomain("angle", "angle").parts("angle", None)
-    []
-    """
-
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        return [] if value is None else super().parts(name, value)
-
-
 _REAL = (float, int, np.floating, np.integer)
 _LARGEST = sys.float_info.max
 
@@ -389,7 +379,7 @@ class PhysicalDomain(Domain):
 
 
 @dataclass(frozen=True)
-class StokesDomain(PhysicalDomain, OptionalDomain):
+class StokesDomain(PhysicalDomain):
     """Stokes vectors that light can have; none at all is unpolarised light."""
 
     def allows(self, numbers: Any) -> Any:

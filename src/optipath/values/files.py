@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import errno
 import os
 import secrets
 import shutil
 import stat
 from contextlib import contextmanager
-from functools import partial
 from io import BytesIO
 from os import PathLike, fspath
 from pathlib import Path
@@ -104,8 +102,7 @@ def written_whole(file: Path) -> Iterator[IO[bytes]]:
         with file.open("wb") as stream:
             yield stream
         return
-    place = _place_of(file)
-    with _draft(place, 0o666, place if place.exists() else None) as stream:
+    with drafted(file) as draft, draft.open("wb") as stream:
         yield stream
 
 
@@ -121,24 +118,16 @@ def drafted(file: Path) -> Iterator[Path]:
     [('a.txt', 'light')]
     """
     place = _place_of(file)
-    draft = place.with_name(f".{secrets.token_hex(8)}.draft")
-    try:
+    with _draft(place, 0o666) as draft:
         yield draft
-        with draft.open("rb") as stream:
-            os.fsync(stream.fileno())
         if place.exists():
             shutil.copymode(place, draft)
-        draft.replace(place)
-    except BaseException:
-        with contextlib.suppress(OSError):
-            draft.unlink()
-        raise
 
 
 def write_own_file(file: Path, content: bytes, mode: int = 0o600) -> None:
     """Write a file in place of whatever stood there, a link too; by default for its owner alone."""
-    with _draft(file, mode) as stream:
-        stream.write(content)
+    with _draft(file, mode) as draft:
+        draft.write_bytes(content)
 
 
 def _place_of(file: Path) -> Path:
@@ -152,19 +141,16 @@ def _place_of(file: Path) -> Path:
 
 
 @contextmanager
-def _draft(place: Path, mode: int, alike: Path | None = None) -> Iterator[IO[bytes]]:
+def _draft(place: Path, mode: int) -> Iterator[Path]:
     draft = place.with_name(f".{secrets.token_hex(8)}.draft")
     try:
-        with open(draft, "xb", opener=partial(os.open, mode=mode)) as stream:
-            yield stream
-            stream.flush()
+        os.close(os.open(draft, os.O_CREAT | os.O_EXCL | os.O_WRONLY, mode))
+        yield draft
+        with draft.open("rb+") as stream:
             os.fsync(stream.fileno())
-        if alike:
-            shutil.copymode(alike, draft)
         draft.replace(place)
     except BaseException:
-        with contextlib.suppress(OSError):
-            draft.unlink()
+        draft.unlink(missing_ok=True)
         raise
 
 

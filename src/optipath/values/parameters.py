@@ -32,7 +32,6 @@ from optipath.values.units import (
     displayed,
     format_quantity,
     format_range,
-    is_of_decibels,
     parse_quantity,
     unit_of,
     with_article,
@@ -436,7 +435,7 @@ def _first_unit(values: list[Any]) -> str:
         several = value if isinstance(value, (list, tuple)) else [value]
         for text in several:
             unit = unit_of(text) if isinstance(text, str) else ""
-            if unit and not is_of_decibels(unit):
+            if unit:
                 return unit
     return ""
 

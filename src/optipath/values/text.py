@@ -20,7 +20,6 @@ from optipath.values.units import (
     in_unit,
     ratio_of,
     unit_of,
-    without_comma,
 )
 from optipath.values.use import axes_for
 
@@ -76,27 +75,14 @@ def read_axis_text(
     texts = several_texts(parameter, text)
     if texts is None:
         return None
-    parts = [part.strip() for part in text.split(":")]
-    if len(parts) == 3 and [parts[0], parts[1]] == [texts[0], texts[-1]]:
-        _check_ends(parts, parameter, unit)
+    if ":" in text and len(texts) > 1:
+        parameter.parse(texts[0], unit)  # What is wrong with the first is wrong with all.
     try:
         return read_entries(texts, parameter, unit, uses)
     except OptipathError as fault:
         if (file := column_file(text)) is None:
             raise
         raise ParameterError(*[each.under(file) for each in fault.faults]) from None
-
-
-def _check_ends(parts: Sequence[str], parameter: Parameter, unit: str) -> None:
-    """Raise at the beginning of a range, where all is wrong with it that is wrong with a value."""
-    if dimension_of(parameter.unit) and not unit and not unit_of(parts[0]):
-        first, last, count = parts
-        raise ParameterError(
-            f"parameter '{parameter.name}': '{':'.join(parts)}' has no unit; write "
-            f"'{first} {parameter.unit}:{last} {parameter.unit}:{count}' if it is in "
-            f"{parameter.unit}"
-        )
-    parameter.parse(parts[0], unit)
 
 
 def read_entries(
@@ -151,7 +137,6 @@ def _common_unit(entries: Sequence[_Entry], parameter: Parameter) -> str:
 
 
 _FILE = "@"
-_THOUSANDS = re.compile(r"0\d\d(?:\D.*)?", re.ASCII)
 
 
 def several_texts(parameter: Parameter, text: str) -> list[str] | None:
@@ -170,9 +155,9 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
         except OptipathError as fault:
             raise ParameterError(*[each.under(fault.about) for each in fault.faults]) from None
     try:
-        if _is_range(parameter, text):
-            return texts_of_range(text)
-        return _listed(text) if "," in text else None
+        if "," in text:
+            return [part.strip() for part in text.split(",")]
+        return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
     except UnitError as fault:
         where = f"parameter '{parameter.name}'"
         raise ParameterError(*[each.under(where) for each in fault.faults]) from None
@@ -188,20 +173,11 @@ def column_file(text: str) -> str | None:
     return text.removeprefix(_FILE).strip() if text.startswith(_FILE) else None
 
 
-def _is_range(parameter: Parameter, text: str) -> bool:
-    """Tell whether a text has the colons of a range, and is neither a ratio nor a list of these."""
-    listed = "," in text and not without_comma(text.partition(":")[0].strip())
-    if ":" not in text or listed:
+def _is_ratio(parameter: Parameter, text: str) -> bool:
+    """Tell whether a text with colons is a ratio to 1; ask where it may lack a count."""
+    if text.count(":") > 1 or dimension_of(parameter.unit):
         return False
-    return text.count(":") > 1 or bool(dimension_of(parameter.unit)) or not _is_ratio(text)
-
-
-def _is_ratio(text: str) -> bool:
-    """Tell whether a text with one colon is a ratio to 1; ask where it may lack a count."""
-    try:
-        ratio = ratio_of(text)
-    except UnitError:
-        return False
+    ratio = ratio_of(text)
     if any(float(part) == 1.0 for part in text.split(":")):
         return True
     raise UnitError(
@@ -210,35 +186,10 @@ def _is_ratio(text: str) -> bool:
     )
 
 
-def _listed(text: str) -> list[str]:
-    parts = [part.strip() for part in text.split(",")]
-    if meant := without_comma(text):
-        numbers = " or ".join(f"'{number}'" for number in meant)
-        raise UnitError(
-            f"'{text}' may be a number with a comma, or two; write {numbers} for one, and "
-            f"'{', '.join(_in_one_unit(parts))}' for two"
-        )
-    if not all(parts):
-        raise UnitError(f"'{text}' has nothing between two commas, or at an end; leave these out")
-    if ranges := [part for part in parts if part.count(":") > 1]:
-        raise UnitError(f"'{ranges[0]}' is in a list, and a range stands alone; write its values")
-    if thousands := [part for part in parts[1:] if _THOUSANDS.fullmatch(part)]:
-        raise UnitError(
-            f"'{thousands[0]}' of '{text}' may be thousands of the number in front; write that "
-            f"without commas, or '{thousands[0].lstrip('0') or '0'}' in a list"
-        )
-    return parts
-
-
-def _in_one_unit(parts: list[str]) -> list[str]:
-    """Return the two numbers around a comma, where the unit stands behind the second alone."""
-    unit = parts[1].lstrip("+-.eE0123456789")
-    return [f"{parts[0]} {unit.strip()}".strip(), parts[1]]
-
-
 MOST_WRITTEN = 1_000_000
 """How many values a text may stand for; more are given as an array."""
 
+_FORM = "write start:stop:count, such as '400 nm:700 nm:61'"
 _END = re.compile(rf"([-+]?{NUMBER})\s*((?:1/)?[^\W\d_].*|[°'\"])?")
 _COUNT = re.compile(r"\+?\d{1,18}", re.ASCII)
 _LONGEST, _LEAST, _LARGEST = 100, -330, 309
@@ -256,13 +207,20 @@ def texts_of_range(text: str) -> list[str]:
     ['700 nm', '600.0 nm', '500.0 nm', '400 nm']
     """
     parts = [part.strip() for part in text.split(":")]
-    if len(parts) != 3 or not all(parts):
-        raise UnitError(_not_three(text, parts))
-    first, last, _ = parts
+    if len(parts) != 3:
+        raise UnitError(f"{shown(text)} is no range; {_FORM}")
+    first, last, counted = parts
     (start, unit), (stop, other) = _end(text, first), _end(text, last)
     if unit != other:
-        raise UnitError(_two_units(text, parts, unit, other))
-    count = _count(text, parts, start, stop)
+        raise UnitError(f"the ends of '{text}' differ in their units; write both in one unit")
+    count = int(counted) if _COUNT.fullmatch(counted) else 0
+    if count < 1 or (count == 1 and start != stop):
+        raise UnitError(f"'{counted}' of '{text}' is no count of values; {_FORM}")
+    if count > MOST_WRITTEN:
+        raise UnitError(
+            f"'{text}' counts {count} values, and a text stands for {MOST_WRITTEN} at most; give "
+            f"them as an array, such as np.linspace(...), in Python"
+        )
     if count == 1:
         return [first]
     steps = count - 1
@@ -277,71 +235,8 @@ def texts_of_range(text: str) -> list[str]:
 
 def _end(text: str, end: str) -> tuple[Fraction, str]:
     """Return the number and the unit of an end of a range."""
-    if meant := without_comma(end):
-        written = " or ".join(f"'{text.replace(end, each)}'" for each in meant)
-        raise UnitError(f"'{text}' has a number with a comma; write {written}")
     match = _END.fullmatch(end) if len(end) <= _LONGEST else None
-    if match is None:
-        raise UnitError(
-            f"{shown(end)} of {shown(text)} is no number with a unit; write start:stop:count, such "
-            f"as '400 nm:700 nm:61'"
-        )
-    number = Decimal(match[1])
-    if number and not _LEAST < number.adjusted() < _LARGEST:
-        raise UnitError(f"'{end}' of '{text}' is beyond the numbers that floats are; give another")
-    return Fraction(match[1]) if number else Fraction(0), match[2] or ""
-
-
-def _count(text: str, parts: list[str], start: Fraction, stop: Fraction) -> int:
-    first, last, counted = parts
-    if _COUNT.fullmatch(counted) is None:
-        raise UnitError(_no_count(text, parts, start, stop))
-    count = int(counted)
-    if count < 1:
-        raise UnitError(f"'{text}' counts no values; the last of start:stop:count is 1 or more")
-    if count == 1 and start != stop:
-        raise UnitError(
-            f"'{text}' counts one value from {first} to {last}; write '{first}:{last}:2'"
-        )
-    if count > MOST_WRITTEN:
-        raise UnitError(
-            f"'{text}' counts {count} values, and a text stands for {MOST_WRITTEN} at most; give "
-            f"them as an array, such as np.linspace(...), in Python"
-        )
-    return count
-
-
-def _no_count(text: str, parts: list[str], start: Fraction, stop: Fraction) -> str:
-    """Return the sentence for what is no count, and may be a step or have the unit of the ends."""
-    first, last, counted = parts
-    match = _END.fullmatch(counted[:_LONGEST])
-    if match is not None and (unit := match[2]) and _COUNT.fullmatch(match[1]):
-        written = ":".join(_with_unit(end, unit) for end in (first, last))
-        return f"'{counted}' of '{text}' is no count; write '{written}:{match[1]}'"
-    cure = "write how many values there are, both ends included"
-    if match is not None and not match[2] and _LEAST < Decimal(match[1]).adjusted() < _LARGEST:
-        step = abs(Fraction(match[1]))
-        steps = abs(stop - start) / step if step else Fraction(0)
-        if steps.denominator == 1 and 0 < steps < MOST_WRITTEN:
-            cure = f"for steps of {counted.lstrip('+-')} write '{first}:{last}:{steps + 1}'"
-    return f"'{counted}' of '{text}' is no count, which is a whole number; {cure}"
-
-
-def _not_three(text: str, parts: list[str]) -> str:
-    if len(parts) == 2 and all(parts):
-        return f"'{text}' does not say how many values there are; write '{text}:11' for eleven"
-    return (
-        f"{shown(text)} is no range; write start:stop:count, such as '0:90:91' or "
-        f"'400 nm:700 nm:61'"
-    )
-
-
-def _two_units(text: str, parts: list[str], unit: str, other: str) -> str:
-    if unit and other:
-        return f"the ends of '{text}' are in {unit} and in {other}; write both in one unit"
-    written = ":".join([*(_with_unit(end, unit or other) for end in parts[:2]), parts[2]])
-    return f"'{text}' has a unit at one end alone; write '{written}'"
-
-
-def _with_unit(end: str, unit: str) -> str:
-    return end if (match := _END.fullmatch(end)) and match[2] else f"{end} {unit}"
+    # Fractions of what is beyond floats would be endless.
+    if match and (not (number := Decimal(match[1])) or _LEAST < number.adjusted() < _LARGEST):
+        return Fraction(match[1]) if number else Fraction(0), match[2] or ""
+    raise UnitError(f"{shown(end)} of {shown(text)} is no number with a unit; {_FORM}")

@@ -8,12 +8,9 @@ from __future__ import annotations
 import math
 import re
 from decimal import Decimal
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from optipath.errors import UnitError, did_you_mean, shown
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
 
 # Written so that no text matches in two ways, and long ones take no longer than they are.
 NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
@@ -99,7 +96,7 @@ def dimension_of(unit: str) -> str:
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
         word = unit if isinstance(unit, str) else shown(unit)
-        raise UnitError(f"unit '{word}' is unknown{unit_meant(word, UNITS)}")
+        raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
     return UNITS[unit].dimension
 
 
@@ -114,7 +111,7 @@ def unit_of(text: str) -> str:
     >>> unit_of("30 deg"), unit_of("0.5"), unit_of("horizontal")
     ('deg', '', '')
     """
-    match = _QUANTITY.fullmatch(_per_length(text) or text.strip()[:_LONGEST])
+    match = _QUANTITY.fullmatch(text.strip()[:_LONGEST])
     return match[2] if match and _LIKE_A_UNIT.fullmatch(match[2]) else ""
 
 
@@ -133,16 +130,12 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
         return number
     match = _QUANTITY.fullmatch(text)
     if match is None or (match[2] and not _LIKE_A_UNIT.fullmatch(match[2])):
-        if meant := comma_cure(text):
-            raise UnitError(f"'{text}' is not a quantity; {meant}")
-        if meant := _respelt(text, dimension):
-            raise UnitError(f"'{text}' is not a quantity; did you mean '{meant}'?")
         example = f"'30 {USUAL_UNITS[dimension]}'" if dimension else "'1.5' or '0.3+0.4j'"
         raise UnitError(f"'{text}' is not a quantity; write a number such as {example}")
     unit = match[2] or default_unit
     known = UNITS.get(unit) if unit else _NOTHING
     if known is None or known.dimension != dimension:
-        raise UnitError(_mismatch(text, match[1], unit, dimension))
+        raise UnitError(_mismatch(text, unit, dimension))
     return _in_base_units(match[1], known)
 
 
@@ -221,32 +214,16 @@ def _complex(text: str) -> complex | None:
     return complex(number) if _COMPLEX.fullmatch(number) else None
 
 
-def _respelt(text: str, dimension: str) -> str:
-    """Return a text with j for i, or with a unit for a quotient, if that was meant."""
-    if dimension == "inverse length":
-        return _per_length(text)
-    root = f"{text[:-1]}j"
-    return root if text.endswith("i") and not dimension and _complex(root) is not None else ""
-
-
-def _per_length(text: str) -> str:
-    """Return the quantity that a quotient such as ``"0.1/mm"`` is; nothing for all else."""
-    number, _, length = (part.strip() for part in text[:_LONGEST].partition("/"))
-    match, unit = _QUANTITY.fullmatch(number), f"1/{length}"
-    return f"{number} {unit}" if unit in UNITS and match and not match[2] else ""
-
-
-def _mismatch(text: str, number: str, unit: str, dimension: str) -> str:
+def _mismatch(text: str, unit: str, dimension: str) -> str:
     """Return the sentence for a unit that is missing, unknown, or of another dimension."""
     if not dimension:
-        cure = without_unit(number, unit)
-        return f"'{text}' has the unit '{unit}', but a pure number is asked for; {cure}"
+        return f"'{text}' has the unit '{unit}', but a pure number is asked for"
     units = units_of(dimension)
     if not unit:
         request = with_article(dimension)
         return f"'{text}' has no unit, but {request} is asked for; add one of {', '.join(units)}"
     if unit not in UNITS:
-        return f"unit '{unit}' of '{text}' is unknown{unit_meant(unit, units)}"
+        return f"unit '{unit}' of '{text}' is unknown{did_you_mean(unit, units)}"
     return f"'{text}' is no {dimension}; use one of {', '.join(units)}"
 
 
@@ -281,24 +258,10 @@ def _limit(end: float, low: float, high: float, unit: str) -> str:
     return format_quantity(end, unit)
 
 
-_ALL = 17
-
-
-def digits_until(holds: Callable[[int], bool], least: int = 10) -> int:
-    """Return with how few significant digits something holds; 17, which tell all doubles apart.
-
-    >>> digits_until(lambda digits: f"{1 + 1e-11:.{digits}g}" != "1")
-    12
-    """
-    return next((digits for digits in range(least, _ALL) if holds(digits)), _ALL)
-
-
 INFINITE = "inf"
 """What is written for a ratio without end."""
 
 _RATIO = re.compile(rf"({NUMBER})\s*:\s*({NUMBER})", re.ASCII)
-_LARGEST = 300.0
-"""The largest power of ten that decibels are written down as."""
 
 
 def ratio_of(text: str) -> float | None:
@@ -317,122 +280,3 @@ def ratio_of(text: str) -> float | None:
     if 0.0 < ratio < math.inf:
         return ratio
     raise UnitError(f"'{text}' is no ratio of two positive numbers; write one such as '1000:1'")
-
-
-def without_unit(number: str, unit: str) -> str:
-    """Return the cure for a unit where a pure number is asked for; decibels are a ratio.
-
-    >>> without_unit("30", "dB")
-    'write 1000, which is 10 ** (30 / 10), for a ratio of intensities (0.001 for a loss of as much)'
-    >>> without_unit("30", "mm")
-    'leave it out'
-    """
-    if not is_of_decibels(unit) or not abs(power := float(number) / 10.0) < _LARGEST:
-        return "leave it out"
-    loss = f" ({10.0**-power:.10g} for a loss of as much)" if power > 0.0 else ""
-    ratio = f"write {10.0**power:.10g}, which is 10 ** ({number} / 10), for a ratio of intensities"
-    return ratio + loss
-
-
-def is_of_decibels(unit: str) -> bool:
-    """Tell whether what stands behind a number says decibels, which are no unit here."""
-    return unit.lower() == "db"
-
-
-_LENGTH_NAMES = {"nano": "nm", "micro": "um", "milli": "mm", "centi": "cm", "deci": "dm", "": "m"}
-_ANGLE_NAMES = {
-    "radian": "rad",
-    "milliradian": "mrad",
-    "arcminute": "arcmin",
-    "arcsecond": "arcsec",
-}
-
-_SINGULAR = {
-    **{
-        f"{prefix}{metre}": u for prefix, u in _LENGTH_NAMES.items() for metre in ("meter", "metre")
-    },
-    **_ANGLE_NAMES,
-    "degree": "deg",
-    "micron": "um",
-    "ångström": "angstrom",
-    "angstroem": "angstrom",
-    "angstrom": "angstrom",
-    "tesla": "T",
-    "millitesla": "mT",
-    "gauss": "G",
-    "kilogauss": "kG",
-    "arc minute": "arcmin",
-    "arc second": "arcsec",
-}
-_SIGNS = {"°": "deg", "º": "deg", "'": "arcmin", '"': "arcsec", "µm": "um", "μm": "um", "µ": "um"}
-_SIGNS |= dict.fromkeys(("å", "\u212b"), "angstrom")
-_NAMES = {**_SINGULAR, **{f"{name}s": unit for name, unit in _SINGULAR.items()}, **_SIGNS}
-_NAMES |= {"degs": "deg", "rads": "rad", "mic": "um", "mu": "um"}
-
-_GONS = dict.fromkeys(("gon", "gons", "gradian", "gradians"), "a gon is 0.9 deg")
-_GONS |= dict.fromkeys(
-    ("grad", "grads"), "a grad is 0.9 deg where it is a gon, and 1 deg in German"
-)
-
-
-def usual_name(word: str) -> str:
-    """Return a unit as it is called here; the word itself where it has no other name.
-
-    >>> usual_name("degrees/Millimeter"), usual_name("cm^-1"), usual_name("°"), usual_name("nm")
-    ('deg/mm', '1/cm', 'deg', 'nm')
-    """
-    for power in ("^-1", "**-1", "-1", "⁻¹"):
-        if word.endswith(power):
-            word = f"1/{word.removesuffix(power)}"
-    if word.startswith("per "):
-        word = f"1/{word.removeprefix('per ')}"
-    parts = word.replace(" per ", "/").split("/")
-    return "/".join(_NAMES.get(part.strip().lower(), part.strip()) for part in parts)
-
-
-def unit_meant(word: str, units: Collection[str]) -> str:
-    """Return the cure for an unknown unit, ready to be put behind the fault.
-
-    >>> unit_meant("degrees", ["deg", "rad"]), unit_meant("pints", ["deg", "rad"])
-    ("; did you mean 'deg'?", '; there are: deg, rad')
-    >>> unit_meant("grad", ["deg", "rad"])
-    '; a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg'
-    """
-    name = usual_name(word)
-    if name in units:
-        return f"; did you mean '{name}'?"
-    if name.lower() in _GONS and "deg" in units:
-        return f"; {_GONS[name.lower()]}; write it in deg"
-    return did_you_mean(word, units)
-
-
-_COMMA = re.compile(r"[-+]?\d+,\d+(?:[^\d,][^,]*)?", re.ASCII)
-_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}(?:\D.*)?", re.ASCII)
-
-
-def without_comma(text: str) -> list[str]:
-    """Return the numbers that one with a comma may be meant for; none where it has no comma.
-
-    >>> without_comma("30,5 deg"), without_comma("1,000"), without_comma("1.5")
-    (['30.5 deg'], ['1.000', '1000'], [])
-    """
-    if _COMMA.fullmatch(text) is None:
-        return []
-    ways = (".", "") if _THOUSANDS.fullmatch(text) else (".",)
-    return [text.replace(",", way) for way in ways]
-
-
-def comma_cure(text: str) -> str:
-    """Return the cure for a number with a comma, a part of a sentence; nothing for others.
-
-    >>> comma_cure("30,5 deg")
-    "did you mean '30.5 deg'? (a text is one value; several are an array, in Python)"
-    >>> comma_cure("1,000")
-    "its comma may be a decimal point or part thousands; write '1.000' or '1000'"
-    """
-    result = without_comma(text)
-    if len(result) > 1:
-        written = " or ".join(f"'{number}'" for number in result)
-        return f"its comma may be a decimal point or part thousands; write {written}"
-    several = "(a text is one value; several are an array, in Python)"
-    return f"did you mean '{result[0]}'? {several}" if result else ""

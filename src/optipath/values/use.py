@@ -16,7 +16,7 @@ from optipath.errors import OptipathError, ParameterError, ValueFault, collectin
 from optipath.values.angles import warn_of_degrees
 from optipath.values.arrays import as_argument
 from optipath.values.curve_value import CurveValue, check_computed
-from optipath.values.domains import Domain, OptionalDomain, in_unit_of
+from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import (
     AXES,
@@ -220,22 +220,6 @@ def make_sound(
     return True
 
 
-def remember_sound(whole: Any) -> None:
-    """Remember that all values of something are allowed, so that nobody looks at them again."""
-    vars(whole)["_is_sound"] = True
-
-
-def is_known_sound(whole: Any) -> bool:
-    """Tell whether all values of something have been looked at, and are allowed."""
-    return "_is_sound" in vars(whole)
-
-
-def not_known_sound(whole: T) -> T:
-    """Return a copy of something in which other values stand than those that were looked at."""
-    vars(whole).pop("_is_sound", None)
-    return whole
-
-
 def stored_value(owner: str, value: Any, domain: Domain) -> Any:
     """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit."""
     if domain.takes_large_angles and not _is_checked_later.get():
@@ -310,11 +294,3 @@ class AxisDomain(Domain):
         if word[:1].isalpha():
             raise ValueFault(f"axis '{word}' is unknown{word_meant(word, AXES, self.dimension)}")
         return super().parse(text)
-
-
-class OptionalAxisDomain(OptionalDomain, AxisDomain):
-    """The same, or none.
-
-    >>> OptionalAxisDomain("angle", "angle").parts("dichroic_angle", None)
-    []
-    """
