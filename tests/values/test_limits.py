@@ -1,5 +1,6 @@
 """Limits of values in each precision, indices of 0, and numbers of two boundaries that must fit."""
 
+import re
 from itertools import product
 from types import SimpleNamespace
 
