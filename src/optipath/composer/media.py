@@ -384,6 +384,7 @@ class SnellsLaw(Agreement):
         return ~differs
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
         angle1, n1, k1, angle2, n2, k2, *turns = numbers
         (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
         pairs = ((angle1, n1, k1), (angle2, n2, k2))
