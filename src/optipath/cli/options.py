@@ -33,10 +33,21 @@ class StrictCommand(click.Command):
     allow_extra_args = True
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the options; refuse what is left."""
+        """Take the options; refuse what is left, and what is given again."""
+        words = list(args)
         with _unknown_options_reported(ctx):
             left = super().parse_args(ctx, args)
-        if left and not ctx.resilient_parsing:
+        if ctx.resilient_parsing:
+            return left
+        # Of the values of an option that takes one, click keeps the last alone.
+        _, _, order = self.make_parser(ctx).parse_args(words)
+        for one in order:
+            single = isinstance(one, click.Option) and not (one.multiple or one.is_flag or one.count)
+            if single and order.count(one) > 1:
+                raise click.UsageError(
+                    f"{one.opts[0]} is given {order.count(one)} times; give it once", ctx
+                )
+        if left:
             raise click.UsageError(
                 f"'{left[0]}' belongs to no option; leave it out, or quote words with spaces "
                 f"between: '30 deg'",
