@@ -377,7 +377,7 @@ def test_multiples_absorptions_and_what_is_taken_for_granted_are_told():
         return faces(plate, op.LayerStack([1, 1.5, 1], "60 deg", **about))
 
     told = fault_of(plates())
-    assert "(60 deg in n = 1); give 'back' an incidence of 30 deg in n = 1, or op.FOLLOWS" in told
+    assert "(60 deg in n = 1); give 'back' an incidence of op.FOLLOWS" in told
     assert told.endswith("unless they say parallel=False)")
     plates(parallel=False).check()
     turning = plates(azimuth=op.Parameter("turn"))
@@ -417,8 +417,7 @@ def test_a_second_face_that_forgets_its_medium_or_where_its_angle_is_measured_is
     for part in (
         "'front.transmitted' enters 'back.in'",
         "n sin(incidence) is 0.6427876097 at 'front' and 0.9641814145 at 'back'",
-        f"incidence of {np.degrees(INSIDE):.10g} deg in n = 1.5, or",
-        "or op.FOLLOWS",
+        "give 'back' an incidence of op.FOLLOWS",
     ):
         assert part in fault
 

@@ -42,7 +42,9 @@ class StrictCommand(click.Command):
         # Of the values of an option that takes one, click keeps the last alone.
         _, _, order = self.make_parser(ctx).parse_args(words)
         for one in order:
-            single = isinstance(one, click.Option) and not (one.multiple or one.is_flag or one.count)
+            single = isinstance(one, click.Option) and not (
+                one.multiple or one.is_flag or one.count
+            )
             if single and order.count(one) > 1:
                 raise click.UsageError(
                     f"{one.opts[0]} is given {order.count(one)} times; give it once", ctx

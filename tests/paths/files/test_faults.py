@@ -277,7 +277,7 @@ PARAMETERS = [
     [
         *((text, "physical = false for what is measured") for text in (OF_STATE, through(MATRIX))),
         (slab(AIR + 'incidence = "25 deg"'), 'outside = 1.5, or "follows" for outside'),
-        (slab(face("1", '"follows"', '"20 deg"')), 'or "follows" (faces behind one that'),
+        (slab(face("1", '"follows"', '"20 deg"')), 'of "follows" (faces behind one that'),
         (boundary(outside='"folows"'), "'folows' is no number; did you mean \"follows\"?"),
         (boundary(outside='"FOLLOWS"'), "'FOLLOWS' is no number; did you mean \"follows\"?"),
         (boundary(outside='"air"'), "'air' is no number; give n and k as numbers, such as { n ="),
