@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from optipath.errors import Cure, Fault, MeshWarning, SurfaceError, did_you_mean
 from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
 from optipath.values.arrays import as_argument
-from optipath.values.files import input_file
+from optipath.values.files import bytes_of, input_file
 from optipath.values.precision import Array, as_doubles, is_whole
 
 if TYPE_CHECKING:
@@ -157,6 +158,10 @@ def warn_of_coarse(alpha: Pair, size: Pair, cells: tuple[int, int]) -> None:
     warnings.warn(Fault(why, cure), MeshWarning, stacklevel=calls_up())
 
 
+_LARGEST = 256 * 1024 * 1024
+"""How many bytes a file of heights may have."""
+
+
 def read_heights(path: str | PathLike[str]) -> Array:
     """Read the heights of a file, row by row."""
     file = input_file(path, SurfaceError)
@@ -179,7 +184,7 @@ def read_heights(path: str | PathLike[str]) -> Array:
 
 def _text(file: Path) -> Array:
     """Read numbers separated by blanks or commas, with ``#`` before remarks."""
-    lines = file.read_text("utf-8-sig").splitlines()
+    lines = bytes_of(file, _LARGEST).decode("utf-8-sig").splitlines()
     first = next(filter(None, (line.partition("#")[0].strip() for line in lines)), "")
     if not first:
         raise ValueError("it holds no numbers")
@@ -188,8 +193,8 @@ def _text(file: Path) -> Array:
 
 def _array(file: Path) -> Array:
     """Read an array of NumPy's, which cannot hold anything that would be run."""
-    with file.open("rb") as stream:
-        return np.lib.format.read_array(stream, allow_pickle=False)
+    content = BytesIO(bytes_of(file, _LARGEST))
+    return np.lib.format.read_array(content, allow_pickle=False)
 
 
 def _picture(file: Path) -> Array:
