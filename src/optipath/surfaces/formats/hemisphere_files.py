@@ -59,7 +59,7 @@ name that ends in .zarr or .nc, and load that
             f"'{place}' does not hold all of a hemisphere; save it with a name that ends in .zarr "
             f"or .nc, and load that"
         )
-    if not place.exists():
+    if not (place.is_file() or place.is_dir()):
         raise SurfaceError(f"there is no '{place}'; save a hemisphere of that name first")
     datasets = _datasets(place.suffix)
     try:
