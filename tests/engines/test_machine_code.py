@@ -183,6 +183,7 @@ def test_every_operation_of_machine_code_is_that_of_numpy(rng):
         lambda a, b: xp.where((a == b) & (a != 0.0), xp.sqrt(xp.absolute(a)), xp.fixed(b)),
         lambda a, b: xp.where((a > b) == (b >= 0.0), a, b),
         lambda a, b: xp.where(xp.integer(a) == xp.maximum(xp.integer(b), -1), a, b),
+        lambda a, b: (a > 0.0) * b + xp.absolute(a > b) + xp.absolute(xp.integer(4.0 * a)),
     )
     found, expected = run(formula, a=a, b=b)
     np.testing.assert_array_equal(found, expected)

@@ -83,32 +83,24 @@ DAMAGES = [
 ]
 
 
-def unfinished(store):
-    """A lost mark is a block that is not done, and no damage."""
-    (store / "blocks" / "done" / "0.0").unlink()
-
-
-def test_a_damaged_block_is_computed_anew_where_a_store_goes_on_and_no_other(store, tmp_path):
+def test_a_damaged_block_is_computed_anew_and_no_other(store, tmp_path):
     job, count = Powers(3, log=str(tmp_path / "log")), 0
     keep_blocks(job, store, "synchronous")
     before = content_of(store)
     for name in ("power/3.0", "total/1"):
         for harm in DAMAGES:
             harm(store / name)
-            unfinished(store)
             count += 1
             with pytest.warns(StoreWarning, match=r"1 of 3 blocks of '.*' are damaged and comp"):
                 keep_blocks(job, store, "synchronous")
-            assert computed(tmp_path / "log") == [0, 1, 2, *[0, 1] * count]
+            assert computed(tmp_path / "log") == [0, 1, 2, *[1] * count]
             assert content_of(store) == before
-    # A finished store may be trusted unless a chunk is missing.
-    flip(store / "power" / "3.0")
-    keep_blocks(job, store, "synchronous", trust_whole=True)
     (store / "power" / "3.0").unlink()
     with pytest.warns(StoreWarning, match=r"1 of 3 blocks of '.*' are damaged"):
-        keep_blocks(job, store, "synchronous", trust_whole=True)
+        keep_blocks(job, store, "synchronous")
     assert content_of(store) == before
-    assert computed(tmp_path / "log") == [0, 1, 2, *[0, 1] * count, 1]
+    keep_blocks(job, store, "synchronous")
+    assert computed(tmp_path / "log") == [0, 1, 2, *[1] * count, 1]
 
 
 @pytest.mark.filterwarnings("ignore")
@@ -116,7 +108,8 @@ def test_a_damaged_block_is_computed_anew_where_a_store_goes_on_and_no_other(sto
 def test_whatever_bit_of_a_block_is_lost_no_wrong_number_is_taken(store, step):
     job = Powers(2)
     keep_blocks(job, store)
-    unfinished(store)
+    # A lost mark is a block that is not done, and no damage.
+    (store / "blocks" / "done" / "0.0").unlink()
     whole = xr.open_zarr(store).load()
     done = store / "blocks" / "done" / "1.0"
     mark = done.read_bytes()
@@ -138,7 +131,6 @@ def test_a_block_of_another_job_is_none(store, tmp_path):
     other = tmp_path / "others.zarr"
     keep_blocks(Powers(2, title="others"), other)
     shutil.copy(other / "blocks" / "done" / "1.0", store / "blocks" / "done")
-    unfinished(store)
     with pytest.warns(StoreWarning, match="1 of 3 blocks"):
         keep_blocks(Powers(3), store)
 

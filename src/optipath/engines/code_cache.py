@@ -94,9 +94,15 @@ class CodeCache:
             if text not in self._functions:
                 self._functions[text] = self._loaded(text, compiled)
             self._functions.move_to_end(text)
-            while len(self._functions) > max(self.most_functions, 1):
+            result = self._functions[text]
+            try:
+                most = self.most_functions
+            except CacheError as error:
+                most = 1
+                self.tell(str(error))
+            while len(self._functions) > most:
                 self._functions.popitem(last=False)
-            return self._functions[text]
+            return result
 
     def _loaded(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - an extra
@@ -270,7 +276,7 @@ def _name_of(text: str) -> str:
 @cache
 def _maker() -> tuple[Any, ...]:
     """Return what makes code of a text: the versions of packages, and the processor."""
-    import llvmlite.binding as llvm  # noqa: PLC0415 - an extra
+    from optipath.engines.machine_code import processor  # noqa: PLC0415 - an extra
 
     versions = []
     for package in ("optipath", "numba", "llvmlite"):
@@ -278,5 +284,4 @@ def _maker() -> tuple[Any, ...]:
             versions.append(version(package))
         except PackageNotFoundError:
             versions.append("")
-    features = llvm.get_host_cpu_features().flatten()
-    return (*versions, llvm.get_process_triple(), llvm.get_host_cpu_name(), features)
+    return (*versions, *processor())

@@ -120,15 +120,16 @@ def source(formula: Formula, space: dict[str, Any]) -> str:
 class Template:
     """What a function does to its arguments, which are inputs named by their places."""
 
-    def __init__(self, dtype: np.dtype[Any], factory: Factory, forms: Sequence[Any]) -> None:
-        self._recorder, arguments = Recorder(dtype), []
-        for place, form in enumerate(forms):
-            argument = form
-            if isinstance(form, tuple):
-                argument = self._recorder.input(str(place), form[0])
-                argument.positive = form[1]
-            arguments.append(argument)
-        self.results = factory(reproducible_symbolic(dtype.name))(*arguments)
+    def __init__(self, dtype: np.dtype[Any], factory: Factory, arguments: Sequence[Any]) -> None:
+        self._recorder, inputs = Recorder(dtype), []
+        for place, argument in enumerate(arguments):
+            known, kind, positive = _form_of(argument)
+            if not known:
+                inputs.append(self._recorder.input(str(place), kind))
+                inputs[-1].positive = positive
+            else:
+                inputs.append(argument)
+        self.results = factory(reproducible_symbolic(dtype.name))(*inputs)
         self._parts: dict[tuple[int, ...], tuple[Formula, tuple[int, ...]]] = {}
         self._functions: dict[tuple[int, ...], Callable[..., Any]] = {}
 
@@ -166,11 +167,10 @@ def call(
 
     The key names the function for all paths; without one, it is recorded for this path alone.
     """
-    forms = tuple(map(_form_of, arguments))
-    whole = key, recorder.dtype.name, forms
+    whole = key, recorder.dtype.name, tuple(map(_form_of, arguments))
     template = None if key is None else _TEMPLATES.get(whole)
     if template is None:
-        template = Template(recorder.dtype, factory, forms)
+        template = Template(recorder.dtype, factory, arguments)
         if key is not None:
             if len(_TEMPLATES) >= _MOST_TEMPLATES:
                 _TEMPLATES.clear()
@@ -192,13 +192,13 @@ def call(
     return tuple(results)
 
 
-def _form_of(argument: Any) -> Any:
-    """Return what a function knows of an argument: its kind and sign, or all of it."""
+def _form_of(argument: Any) -> tuple[str, str, bool]:
+    """Return what a function knows of an argument: all of it, or its kind and its sign."""
     if isinstance(argument, Symbol):
-        return argument.kind, argument.positive
+        return "", argument.kind, argument.positive
     if isinstance(argument, (float, np.floating)) and argument not in (0.0, 1.0):
-        return "float", bool(argument >= 0.0)
-    return argument
+        return "", "float", bool(argument >= 0.0)
+    return repr(argument), "", False  # 0.0 and -0.0 are equal, and so are 1 and True.
 
 
 class CallingCarrier(Carrier):

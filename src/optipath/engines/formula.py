@@ -1,4 +1,4 @@
-"""Formula: the numbers of a run as one list of operations, staged, as Python text.
+"""Formula: the numbers of a run as one list of operations, staged.
 
 Near a right angle, a rounded angle loses the digits of its cosine: a formula of fewer digits is
 given both, the angle rounded and its remainder.
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.symbols import ONE_AXIS, OPERATIONS, SYMBOLIC, Recorder, Symbol
+from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, Symbol
 from optipath.kernels.trigonometry import (
     DIGITS,
     any_quadrant,
@@ -23,7 +23,7 @@ from optipath.kernels.trigonometry import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from optipath.kernels.primitives import Primitives
     from optipath.kernels.trigonometry import Digits
@@ -42,39 +42,46 @@ class Formula:
     axes: frozenset[int] = ONE_AXIS
     last: int | None = None
     earlier: frozenset[int] = frozenset()
-    items: dict[int, dict[int, int]] = field(default_factory=dict)
-    """Of calls, the results that are needed: their places and symbols."""
 
     @cached_property
     def holds(self) -> Any:
         """Whether the results are what the path gives."""
         return reduce(lambda one, other: one & other, self.conditions, np.True_)
 
-    @cached_property
+    @property
     def needed(self) -> tuple[Symbol, ...]:
         """What the results need, in the order in which it can be done."""
+        return self._needed[0]
+
+    @property
+    def items(self) -> dict[int, dict[int, int]]:
+        """The results of each call that are needed: their places and symbols."""
+        return self._needed[1]
+
+    @cached_property
+    def _needed(self) -> tuple[tuple[Symbol, ...], dict[int, dict[int, int]]]:
         ends = [output for output in (*self.results, self.holds) if isinstance(output, Symbol)]
         wanted = {symbol.index for symbol in ends}
         results: list[Symbol] = []
+        items: dict[int, dict[int, int]] = {}
         # Whatever reads a symbol has been recorded after it.
         recorded = ends[0].recorder.symbols[: max(wanted) + 1] if ends else []
         for symbol in reversed(recorded):
-            if symbol.index in wanted:
-                results.append(symbol)
-                if symbol.index not in self.earlier:
-                    wanted |= {o.index for o in self._read_by(symbol) if isinstance(o, Symbol)}
-        return tuple(reversed(results))
-
-    def _read_by(self, symbol: Symbol) -> Sequence[Any]:
-        """Return what a symbol needs; of the arguments of a call, those that its results need."""
-        if symbol.operation == "item":
-            made, place = symbol.operands
-            self.items.setdefault(made.index, {})[place] = symbol.index
-        if symbol.operation != "call":
-            return symbol.operands
-        template, *arguments = symbol.operands
-        which = tuple(sorted(self.items[symbol.index]))
-        return [arguments[place] for place in template.needs(which)]
+            if symbol.index not in wanted:
+                continue
+            results.append(symbol)
+            operands = () if symbol.index in self.earlier else symbol.operands
+            if symbol.operation == "item":
+                made, place = operands
+                items.setdefault(made.index, {})[place] = symbol.index
+            elif symbol.operation == "call":
+                template, *arguments = operands
+                # Of the arguments, those that the results need which are wanted.
+                operands = [
+                    arguments[at] for at in template.needs(tuple(sorted(items[symbol.index])))
+                ]
+            wanted |= {operand.index for operand in operands if isinstance(operand, Symbol)}
+        return tuple(reversed(results)), items
 
     @cached_property
     def inputs(self) -> tuple[Symbol, ...]:
@@ -149,10 +156,13 @@ class Formula:
     @property
     def length(self) -> int:
         """How many operations there are, those of calls included."""
-        calls = [step.operands[0] for step in self.steps if step.operation == "call"]
-        which = [tuple(sorted(items)) for _, items in sorted(self.items.items())]
-        inside: list[int] = [c.length(places) for c, places in zip(calls, which, strict=True)]
-        return len(self.steps) + sum(inside) - len(calls) - sum(map(len, which))
+        inside = [
+            step.operands[0].length(tuple(sorted(self.items[step.index])))
+            for step in self.steps
+            if step.operation == "call"
+        ]
+        plain = [step for step in self.steps if step.operation not in ("call", "item")]
+        return len(plain) + sum(inside)
 
     @cached_property
     def operations(self) -> dict[str, int]:
@@ -255,21 +265,3 @@ def of_angle(
         return first_quadrant(xp, digits)(angle, left)[part == "cos"]
     value = any_quadrant(xp, digits)(angle, left)[part == "cos"]
     return without_rounding(xp, lambda _: value)(angle) if left is None else value
-
-
-def indented(*lines: str) -> list[str]:
-    """Return lines one level deeper."""
-    return ["    " + line for line in lines]
-
-
-def assignments(
-    steps: Iterable[Symbol], written: Callable[[Any], str], *, branchless: bool = False
-) -> list[str]:
-    """Return a line for each operation."""
-    results = []
-    for step in steps:
-        text = OPERATIONS[step.operation].text
-        if branchless and step.operation == "where":
-            text = "chosen({0}, {1}, {2})"
-        results.append(f"{written(step)} = {text.format(*map(written, step.operands))}")
-    return results

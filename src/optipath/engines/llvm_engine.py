@@ -17,7 +17,7 @@ import numpy as np
 from optipath.engines.engine import Engine
 from optipath.engines.formula import left_formula
 from optipath.engines.numpy_engine import NumpyEngine
-from optipath.engines.symbols import OPERATIONS, Symbol
+from optipath.engines.symbols import OPERATIONS, Symbol, strongest
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -90,7 +90,7 @@ def _split_inputs(formula: Formula) -> list[Symbol]:
     return results
 
 
-_POINTED = {"float64": "double", "float32": "float", "int64": "i64", "uint8": "i8"}
+_REAL = {"float64": "double", "float32": "float"}
 _COMPARED = {
     "less": "lt",
     "less_equal": "le",
@@ -116,12 +116,10 @@ class _Writer:
 
     def __init__(self, formula: Formula) -> None:
         self.formula = formula
-        self.float = _POINTED[formula.dtype.name]
+        self.real = _REAL[formula.dtype.name]
         self.lines: list[str] = []
         self.declared: set[str] = set()
         self.names: dict[int, str] = {}
-        self.written: dict[int, str] = {}
-        self.real = self.float
         self.temporaries = 0
         self.block, self.good = "entry", "true"
         self.rooms = {s.index: n * _BLOCK for n, s in enumerate(_split_inputs(formula))}
@@ -131,11 +129,11 @@ class _Writer:
         formula, emit = self.formula, self.emit
         for symbol in formula.inputs:
             if formula.place_of(symbol) == "one":
-                self.convert(f"%t{symbol.index}", f"%a{symbol.index}", symbol.kind)
+                self.names[symbol.index] = self.converted(f"%a{symbol.index}", symbol.kind)
         for left in formula.lefts:
             if left.uniform:
                 number = self.left(left, f"%a{formula.whole_of(left).index}")
-                self.convert(f"%t{left.index}", number, "float")
+                self.names[left.index] = self.converted(number, "float")
         for step in formula.prologue:
             self.operation(step)
         width = emit("sub i64 %stop, %start")
@@ -158,16 +156,15 @@ class _Writer:
                 self.body(starts, count)
         emit("zext i1 %good.row to i64", "%result")
         places = ", ".join(f"i64 %{name}" for name in ("top", "bottom", "start", "stop"))
-        inputs = "".join(f"{self.argument(s)} %a{s.index}, " for s in formula.inputs)
+        inputs = ""
+        for symbol in formula.inputs:
+            kind = "double" if formula.place_of(symbol) == "one" else "ptr noalias"
+            inputs += f"{kind} %a{symbol.index}, "
         ends = "ptr noalias %own, ptr noalias %out, i64 %paths, i64 %at"
         head = f"define i64 @path({places}, {inputs}{ends}) {{"
         body = "\n".join(line if line.endswith(":") else f"  {line}" for line in self.lines)
         declared = "\n".join(sorted(self.declared))
         return f"{head}\nentry:\n{body}\n  ret i64 %result\n}}\n{declared}\n"
-
-    def argument(self, symbol: Symbol) -> str:
-        """Return the type of what is given for an input."""
-        return "double" if self.formula.place_of(symbol) == "one" else "ptr noalias"
 
     def emit(self, operation: str, name: str = "") -> str:
         """Write an operation, and return the name of its result."""
@@ -205,12 +202,9 @@ class _Writer:
     def load(self, symbol: Symbol, at: str) -> None:
         """Write the reading of an input at an index."""
         n, kind = symbol.index, symbol.kind
-        stored = {"float": self.float, "int": "i64", "bool": "i8"}[kind]
+        stored = {"float": self.real, "int": "i64", "bool": "i8"}[kind]
         given = self.read(f"%a{n}", at, stored)
-        if kind == "bool":
-            self.emit(f"icmp ne i8 {given}, 0", f"%t{n}")
-        else:
-            self.names[n] = given
+        self.names[n] = self.emit(f"icmp ne i8 {given}, 0") if kind == "bool" else given
 
     def read(self, array: str, at: str, kind: str) -> str:
         """Write the reading of an array, and return the number's name."""
@@ -219,19 +213,16 @@ class _Writer:
 
     def write(self, number: str, array: str, at: str) -> None:
         """Write a float into an array."""
-        place = self.emit(f"getelementptr inbounds {self.float}, ptr {array}, i64 {at}")
-        self.lines.append(f"store {self.float} {number}, ptr {place}")
+        place = self.emit(f"getelementptr inbounds {self.real}, ptr {array}, i64 {at}")
+        self.lines.append(f"store {self.real} {number}, ptr {place}")
 
-    def convert(self, name: str, number: str, kind: str) -> None:
+    def converted(self, number: str, kind: str) -> str:
         """Write a double as a number of a formula."""
         if kind == "bool":
-            self.emit(f"fcmp une double {number}, 0.0", name)
-        elif kind == "int":
-            self.emit(f"fptosi double {number} to i64", name)
-        elif self.float == "float":
-            self.emit(f"fptrunc double {number} to float", name)
-        else:
-            self.names[int(name[2:])] = number
+            return self.emit(f"fcmp une double {number}, 0.0")
+        if kind == "int":
+            return self.emit(f"fptosi double {number} to i64")
+        return number if self.real == "double" else self.emit(f"fptrunc double {number} to float")
 
     def split(self, symbol: Symbol, start: str, count: str) -> None:
         """Write the loop that splits an input of more digits, and looks whether it is allowed."""
@@ -246,7 +237,7 @@ class _Writer:
             parts = {symbol.index: given}
             parts |= {x.index: self.left(x, given) for x in lefts if formula.whole_of(x) is symbol}
             for index, part in parts.items():
-                number = self.emit(f"fptrunc double {part} to {self.float}")
+                number = self.emit(f"fptrunc double {part} to {self.real}")
                 self.write(number, "%own", self.emit(f"add i64 %{name}, {self.rooms[index]}"))
 
     def body(self, starts: dict[str, str], count: str) -> None:
@@ -261,7 +252,7 @@ class _Writer:
             for symbol in (*formula.inputs, *formula.lefts):
                 if symbol.index in self.rooms:
                     at = self.emit(f"add i64 %i, {self.rooms[symbol.index]}")
-                    self.names[symbol.index] = self.read("%own", at, self.float)
+                    self.names[symbol.index] = self.read("%own", at, self.real)
                 elif symbol.index not in self.names and not symbol.uniform:
                     place = formula.place_of(symbol)
                     if place in starts:
@@ -279,7 +270,7 @@ class _Writer:
             if kind == "bool":
                 return "true" if operand else "false"
             return _literal(float(operand)) if kind == "float" else str(int(operand))
-        name, own = self.names.get(operand.index, f"%t{operand.index}"), self.kind(operand)
+        name, own = self.names[operand.index], operand.kind
         if own == kind:
             return name
         if kind == "bool":
@@ -290,46 +281,35 @@ class _Writer:
         how = "uitofp i1" if own == "bool" else "sitofp i64"
         return self.emit(f"{how} {name} to {self.real}")
 
-    def kind(self, operand: Any) -> str:
-        """Return the kind of a number, or of a symbol as it has been written."""
-        if isinstance(operand, Symbol):
-            return self.written.get(operand.index, operand.kind)
-        if isinstance(operand, (bool, np.bool_)):
-            return "bool"
-        return "int" if isinstance(operand, (int, np.integer)) else "float"
-
     def operation(self, step: Symbol) -> None:
         """Write an operation."""
-        self.names[step.index], self.written[step.index] = self.done(step)
+        self.names[step.index] = self.done(step)
 
     def left(self, left: Symbol, angle: str) -> str:
         """Write in double precision what is left of an angle, and return its name."""
         formula = left_formula(left.operation)
-        outside = self.names, self.written, self.real
-        self.names, self.written, self.real = {formula.inputs[0].index: angle}, {}, "double"
+        outside = self.names, self.real
+        self.names, self.real = {formula.inputs[0].index: angle}, "double"
         for step in formula.steps:
             self.operation(step)
         result = self.value(formula.results[0])
-        self.names, self.written, self.real = outside
+        self.names, self.real = outside
         return result
 
-    def done(self, step: Symbol) -> tuple[str, str]:
-        """Write an operation, and return the name of its result, and its kind."""
+    def done(self, step: Symbol) -> str:
+        """Write an operation, and return the name of its result."""
         operation, operands = step.operation, step.operands
         if operation == "ldexp":
-            number, power = self.value(operands[0]), self.value(operands[1], "int")
-            return self.scaled(number, power), "float"
+            return self.scaled(self.value(operands[0]), self.value(operands[1], "int"))
         chosen = operands[1:] if operation == "where" else operands
-        kinds = {self.kind(operand) for operand in chosen}
-        kind = next(name for name in ("float", "int", "bool") if name in kinds)
-        if OPERATIONS[operation].kind == "float" or operation in ("exponent", "integer"):
-            kind = "float"
+        as_float = OPERATIONS[operation].kind == "float" or operation in ("exponent", "integer")
+        kind = "float" if as_float else strongest(chosen)
         of = {"float": self.real, "int": "i64", "bool": "i1"}[kind]
         values = [self.value(operand, kind) for operand in chosen]
         both = ", ".join(values)
         if operation == "where":
             condition, (yes, no) = self.value(operands[0], "bool"), values
-            return self.emit(f"select i1 {condition}, {of} {yes}, {of} {no}"), kind
+            return self.emit(f"select i1 {condition}, {of} {yes}, {of} {no}")
         if operation in _COMPARED:
             compare = {"float": "fcmp o", "int": "icmp s", "bool": "icmp u"}[kind]
             name = _COMPARED[operation]
@@ -337,29 +317,26 @@ class _Writer:
                 compare = {"eq": "fcmp o", "ne": "fcmp u"}[name] if kind == "float" else "icmp "
             result = self.emit(f"{compare}{name} {of} {both}")
             if operation not in ("maximum", "minimum"):
-                return result, "bool"
-            return self.emit(f"select i1 {result}, {of} {values[0]}, {of} {values[1]}"), kind
-        if kind == "float":
-            return self.of_floats(operation, values)
-        return self.of_integers(operation, of, values), kind
+                return result
+            return self.emit(f"select i1 {result}, {of} {values[0]}, {of} {values[1]}")
+        return (self.of_floats if kind == "float" else self.of_integers)(operation, of, values)
 
-    def of_floats(self, operation: str, values: list[str]) -> tuple[str, str]:
-        """Write an operation on floats, and return the name of its result, and its kind."""
-        of, both = self.real, ", ".join(values)
+    def of_floats(self, operation: str, of: str, values: list[str]) -> str:
+        """Write an operation on floats, and return the name of its result."""
+        both = ", ".join(values)
         if operation == "exponent":
-            return self.exponent(values[0]), "int"
+            return self.exponent(values[0])
         if operation == "integer":
-            return self.emit(f"fptosi {of} {values[0]} to i64"), "int"
+            return self.emit(f"fptosi {of} {values[0]} to i64")
         if operation in _DONE:
-            return self.emit(f"f{_DONE[operation]} {of} {both}"), "float"
+            return self.emit(f"f{_DONE[operation]} {of} {both}")
         if operation == "negative":
-            return self.emit(f"fneg {of} {both}"), "float"
+            return self.emit(f"fneg {of} {both}")
         if operation == "product_rest":
             product = self.emit(f"fmul {of} {both}")
-            rest = self.call("llvm.fma", of, *values, self.emit(f"fneg {of} {product}"))
-            return rest, "float"
+            return self.call("llvm.fma", of, *values, self.emit(f"fneg {of} {product}"))
         function = "atan2" if operation == "arctan2" else f"llvm.{_CALLED[operation]}"
-        return self.call(function, of, *values), "float"
+        return self.call(function, of, *values)
 
     def of_integers(self, operation: str, of: str, values: list[str]) -> str:
         """Write an operation on integers or conditions, and return the name of its result."""
@@ -368,12 +345,14 @@ class _Writer:
             return self.emit(f"{_OF_CONDITIONS[operation]} {of} {both}")
         if operation == "logical_not":
             return self.emit(f"xor i1 {both}, true")
-        if operation == "absolute":
-            if of == "i1":
-                return values[0]
-            return self.call("llvm.abs", of, both, "false")
-        if operation == "negative":
-            return self.emit(f"sub i64 0, {both}")
+        if operation == "absolute" and of == "i1":
+            return both
+        if operation in ("absolute", "negative"):
+            negative = self.emit(f"sub i64 0, {both}")
+            if operation == "negative":
+                return negative
+            below = self.emit(f"icmp slt i64 {both}, 0")
+            return self.emit(f"select i1 {below}, i64 {negative}, i64 {both}")
         if operation in ("floor_divide", "remainder"):
             return self.whole_divided(operation, *values)
         return self.emit(f"{_DONE[operation]} {of} {both}")
@@ -400,7 +379,8 @@ class _Writer:
         return emit(f"sub i64 {quotient}, {emit(f'zext i1 {down} to i64')}")
 
     def as_double(self, number: str) -> str:
-        return number if self.float == "double" else self.emit(f"fpext float {number} to double")
+        """Write a float of the formula as a double."""
+        return number if self.real == "double" else self.emit(f"fpext float {number} to double")
 
     def exponent(self, number: str) -> str:
         """Write the exponent that frexp gives, of the bits of a double."""
@@ -425,7 +405,7 @@ class _Writer:
         for part in (half, emit(f"sub i64 {power}, {half}")):
             bits = emit(f"shl i64 {emit(f'add i64 {part}, 1023')}, 52")
             result = emit(f"fmul double {result}, {emit(f'bitcast i64 {bits} to double')}")
-        return result if self.float == "double" else emit(f"fptrunc double {result} to float")
+        return result if self.real == "double" else emit(f"fptrunc double {result} to float")
 
 
 def _literal(number: float) -> str:

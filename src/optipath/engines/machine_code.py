@@ -25,6 +25,16 @@ class _Array(ctypes.c_void_p):
             return ctypes.c_void_p(array.__array_interface__["data"][0])
 
 
+@cache
+def processor() -> tuple[str, str, str]:
+    """Return the platform, and the name and the features of its processor."""
+    try:
+        features = llvm.get_host_cpu_features().flatten()
+    except RuntimeError:  # LLVM does not know them of every processor
+        features = ""
+    return llvm.get_process_triple(), llvm.get_host_cpu_name(), features
+
+
 def machine_code_of(text: str) -> bytes:
     """Return the machine code of the function ``path`` of a module, which returns an integer."""
     module, machine = _optimized(text)
@@ -45,11 +55,9 @@ def assembly(text: str) -> str:
 def _optimized(text: str) -> tuple[Any, Any]:
     """Return a module for this processor, its loops vectorized, and what writes its code."""
     _begin()
+    _, cpu, features = processor()
     machine = llvm.Target.from_default_triple().create_target_machine(
-        cpu=llvm.get_host_cpu_name(),
-        features=llvm.get_host_cpu_features().flatten(),
-        opt=3,
-        jit=True,
+        cpu=cpu, features=features, opt=3, jit=True
     )
     module = llvm.parse_assembly(text)
     module.triple, module.data_layout = machine.triple, str(machine.target_data)

@@ -13,7 +13,7 @@ from optipath.kernels.primitives import NUMPY, Primitives, is_below_rounding, pr
 from optipath.kernels.trigonometry import DIGITS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
 
 def _operator(operation: str, *, reflected: bool = False) -> Callable[..., Any]:
@@ -180,7 +180,7 @@ class Recorder:
         names = [o.index if isinstance(o, Symbol) else repr(o) for o in operands]
         if about.commutes:
             names.sort(key=str)
-        kind = _kind(operands[-1]) if about.kind == "same" else about.kind
+        kind = strongest(operands[-2:]) if about.kind == "same" else about.kind
         axes = frozenset().union(*[symbol.axes for symbol in symbols])
         symbol = self.entered((operation, *names), operation, operands, kind, axes)
         symbol.positive = kind == "float" and stays_positive(operation, operands)
@@ -197,9 +197,8 @@ class Recorder:
             return self._number(operands[0], "float"), self._number(operands[1], "int")
         if operation == "where":
             return self._number(operands[0], "bool"), *self._alike("", operands[1:])
-        kinds = {_kind(operand) for operand in operands}
-        kind = "float" if OPERATIONS.get(operation, _SAME).kind == "float" else ""
-        kind = kind or next(name for name in ("float", "int", "bool") if name in kinds)
+        is_float = OPERATIONS.get(operation, _SAME).kind == "float"
+        kind = "float" if is_float else strongest(operands)
         return tuple([self._number(operand, kind) for operand in operands])
 
     def _number(self, value: Any, kind: str) -> Any:
@@ -219,6 +218,12 @@ class Recorder:
 
 
 _SAME = OPERATIONS["add"]
+
+
+def strongest(operands: Iterable[Any]) -> str:
+    """Return the kind of what an operation on numbers of several kinds gives."""
+    kinds = set(map(_kind, operands))
+    return next(name for name in ("float", "int", "bool") if name in kinds)
 
 
 def _kind(operand: Any) -> str:

@@ -44,14 +44,11 @@ def keep_blocks(
     store: str | PathLike[str],
     scheduler: Any = None,
     progress: Callable[[int, int], None] | None = None,
-    *,
-    trust_whole: bool = False,
 ) -> zarr.Group:
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
     The store is removed after an error that left no block, unless cluster workers may still write
-    to it. A store that lacks no block and no chunk may be trusted, so that its values are not
-    compared with their digests. Every block that is done stays, whatever ends the rest, and two
+    to it. Every block that is done stays, whatever ends the rest, and two
     runs may share a store. Sums over blocks are made from the store in the order of blocks, so they
     do not depend on the order of computing.
 
@@ -74,7 +71,7 @@ def keep_blocks(
     """
     check_scheduler(scheduler)
     stored = BlockStore.of(job, os.fspath(store))
-    done = stored.done(job, trust_whole=trust_whole)
+    done = stored.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
     tell = progress or (lambda *_: None)
     tell(len(done), job.blocks)

@@ -85,13 +85,9 @@ class BlockStore:
         """The arrays that blocks fill, by name, and that of the marks."""
         return dict(self.group.arrays()) | {_MARKS: self.group[_MARKS]}
 
-    def done(self, job: BlockJob, *, trust_whole: bool = False) -> set[int]:
+    def done(self, job: BlockJob) -> set[int]:
         """Return the numbers of intact blocks, and remove the marks of damaged ones."""
         marks = self._marks(job.blocks)
-        if trust_whole and len(marks) == job.blocks:
-            stored = [self.arrays[name] for name in job.arrays]
-            if all(each.nchunks_initialized == each.nchunks for each in stored):
-                return {*marks}
         with ThreadPoolExecutor() as executor:
             intact = executor.map(self._is_intact, marks.values(), marks, map(job.places, marks))
             damaged = [number for number, good in zip(marks, intact, strict=True) if not good]

@@ -62,7 +62,7 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
     tell = progress if callable(progress) else progress_line if progress else None
     if place.endswith(".nc"):
         return stored_in_netcdf(job, Path(place), scheduler, tell)
-    group = keep_blocks(job, place, scheduler, tell, trust_whole=True)
+    group = keep_blocks(job, place, scheduler, tell)
     result: xr.Dataset = xr.open_zarr(group.store)
     for each in result.variables.values():
         each.encoding = {}  # How it is packed here is for this version of Zarr alone.

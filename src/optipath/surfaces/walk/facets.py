@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numba as nb
 import numpy as np
+from llvmlite import ir
+from numba.extending import intrinsic
 
-from optipath.engines.formula import Formula, assignments, indented
-from optipath.engines.symbols import SYMBOLIC, Recorder, Symbol
+from optipath.engines.formula import Formula
+from optipath.engines.symbols import OPERATIONS, SYMBOLIC, Recorder, Symbol
 from optipath.kernels.carriers.structures import BLOCK, ROTATION
 from optipath.kernels.facets import plane_at_facet, reflected_at_facet, refracted_at_facet
 from optipath.kernels.fresnel.stable import (
@@ -16,7 +18,6 @@ from optipath.kernels.fresnel.stable import (
     lossless_transmission,
     stable_reflection,
 )
-from optipath.surfaces.walk import numba_helpers
 from optipath.surfaces.walk.layout import CARRIED, OPAQUE
 from optipath.surfaces.walk.meshes import CELL_X, CELL_Y, CELLS_X, HEIGHTS, NUMBERS, WHOLES
 
@@ -167,12 +168,13 @@ def compiled_kernel(
     recorder = Recorder(np.dtype(float))
     inputs = [recorder.input(f"a{place}") for place in range(argument)]
     formula = Formula(recorder.dtype, tuple(kernel(SYMBOLIC)(*inputs)))
-    lines = assignments(formula.steps, _written)
-    results = ", ".join(map(_written, formula.results))
-    parameters = ", ".join(map(_written, inputs))
-    body = indented(*lines, f"return ({results},)")
+    lines = [f"def {name}({', '.join(map(_written, inputs))}):"]
+    for step in formula.steps:
+        text = OPERATIONS[step.operation].text.format(*map(_written, step.operands))
+        lines.append(f"    {_written(step)} = {text}")
+    lines.append(f"    return ({', '.join(map(_written, formula.results))},)")
     space: dict[str, Any] = {**_SPACE, "__name__": __name__}
-    exec("\n".join([f"def {name}({parameters}):", *body, ""]), space)  # noqa: S102 - our own
+    exec("\n".join(lines), space)  # noqa: S102 - our own
     # With the flags of the loops that it goes into: nothing is an error, all is a number.
     return nb.njit(space[name], error_model="numpy")
 
@@ -183,9 +185,57 @@ def _written(operand: Any) -> str:
     return repr(operand.item() if isinstance(operand, np.generic) else operand)
 
 
+@intrinsic
+def _bits_of(typing: Any, number: Any) -> Any:  # noqa: ARG001 - as numba calls it
+    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
+        return builder.bitcast(argument[0], ir.IntType(64))
+
+    return nb.int64(nb.float64), generate
+
+
+@intrinsic
+def _number_of(typing: Any, bits: Any) -> Any:  # noqa: ARG001 - as numba calls it
+    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
+        return builder.bitcast(argument[0], ir.DoubleType())
+
+    return nb.float64(nb.int64), generate
+
+
+@intrinsic
+def _fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numba calls it
+    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
+        return builder.fma(*argument)
+
+    return a(a, a, a), generate
+
+
+@nb.njit(error_model="numpy")
+def product_rest(a: Any, b: Any) -> Any:
+    """Return what the rounding of a b has lost."""
+    return _fused(a, b, -(a * b))
+
+
+@nb.njit(error_model="numpy")
+def exponent(number: Any) -> Any:
+    """Return the exponent that frexp gives."""
+    wide = np.float64(number)
+    small = np.int64(abs(wide) < 2.2250738585072014e-308)
+    bits = _bits_of(wide * (1.0 + small * 18014398509481983.0))
+    return (((bits >> 52) & 2047) - 1022 - 54 * small) * np.int64(wide != 0.0)
+
+
+@nb.njit(error_model="numpy")
+def ldexp(number: Any, power: Any) -> Any:
+    """Return a number times two to a power, in double precision."""
+    power = min(max(power, -2040), 2040)
+    half = power >> 1
+    first, second = (half + 1023) << 52, (power - half + 1023) << 52
+    return np.float64(number) * _number_of(first) * _number_of(second)
+
+
 _SPACE = {
     **{name: getattr(np, name) for name in ("sqrt", "inf", "nan")},
-    **{name: getattr(numba_helpers, name) for name in ("exponent", "ldexp", "product_rest")},
+    **{one.__name__: one for one in (exponent, ldexp, product_rest)},
 }
 
 
