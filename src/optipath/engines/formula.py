@@ -70,7 +70,7 @@ class Formula:
             if symbol.index not in wanted:
                 continue
             results.append(symbol)
-            operands = () if symbol.index in self.earlier else symbol.operands
+            operands: Sequence[Any] = () if symbol.index in self.earlier else symbol.operands
             if symbol.operation == "item":
                 made, place = operands
                 items.setdefault(made.index, {})[place] = symbol.index
@@ -156,7 +156,7 @@ class Formula:
     @property
     def length(self) -> int:
         """How many operations there are, those of calls included."""
-        inside = [
+        inside: list[int] = [
             step.operands[0].length(tuple(sorted(self.items[step.index])))
             for step in self.steps
             if step.operation == "call"
