@@ -174,9 +174,11 @@ def test_a_list_has_its_texts_one_by_one_a_range_those_between_and_a_single_valu
         *((f"0 deg:{end}:3", "differ in their units") for end in ("1 rad", "90")),
         *((f"{end}:1:3", "is no number with a unit") for end in ("", "a", "1e-999999999")),
         ("0:1:1000001", "a text stands for 1000000 at most"),
+        ("0,170", "a number with a comma, or two; write '0.170' for one, and '0, 170' for two"),
+        ("10,20 deg", "write '10.20 deg' for one, and '10 deg, 20 deg' for two"),
     ],
 )
-def test_what_is_wrong_with_a_range_is_told(text, told):
+def test_what_is_wrong_with_a_range_or_list_is_told(text, told):
     with pytest.raises(op.ParameterError, match=r"^parameter 'delta': ") as caught:
         several_texts(DELTA, text)
     assert told in str(caught.value)

@@ -45,8 +45,7 @@ def axis_argument(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisV
     try:
         return read_axis_text(text, parameter, unit, uses)
     except OptipathError as error:
-        about = f"{error.about}: " if error.about else ""
-        raise ParameterError(*[f"{about}{fault}" for fault in error.faults]) from None
+        raise ParameterError(*[fault.under(error.about) for fault in error.faults]) from None
 
 
 def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:

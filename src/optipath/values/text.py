@@ -137,6 +137,7 @@ def _common_unit(entries: Sequence[_Entry], parameter: Parameter) -> str:
 
 
 _FILE = "@"
+_COMMA = re.compile(r"([-+]?\d+),(\d+)((?![eE][-+\d])[^\d,.][^,]*)?", re.ASCII)
 
 
 def several_texts(parameter: Parameter, text: str) -> list[str] | None:
@@ -155,6 +156,12 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
         except OptipathError as fault:
             raise ParameterError(*[each.under(fault.about) for each in fault.faults]) from None
     try:
+        if (match := _COMMA.fullmatch(text)) is not None:
+            one, other, unit = match.groups("")
+            raise UnitError(
+                f"'{text}' may be a number with a comma, or two; write '{one}.{other}{unit}' for "
+                f"one, and '{one}{unit}, {other}{unit}' for two"
+            )
         if "," in text:
             return [part.strip() for part in text.split(",")]
         return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
