@@ -94,7 +94,10 @@ def test_without_it_the_kind_is_unknown_and_a_file_never_says_what_is_imported(f
         ("no_such_file.py", "", "there is no file 'no_such_file.py'"),
         ("path.toml", "", "a module or a file that ends in .py, not 'path.toml'"),
         ("", "", "takes the name of a module or a file that ends in .py, not ''"),
-        ("json.py", "x = 1", "a module named 'json' is there already; rename 'json.py'"),
+        *(
+            (f"{name}.py", "x = 1", f"a module named '{name}' is there already; rename '{name}.py'")
+            for name in ("json", "imaplib")  # That is not imported before.
+        ),
     ],
 )
 def test_what_cannot_be_imported_is_told_in_a_line(name, text, expected, folder, refused):

@@ -227,6 +227,9 @@ def import_own(name: str) -> None:
         raise PathError(
             f"--import takes the name of a module or a file that ends in .py, not {shown(name)}"
         )
+    taken = f"--import: a module named {shown(module)} is there already; rename {shown(name)}"
+    if is_file and module in sys.stdlib_module_names:  # Python would import the file for its own.
+        raise PathError(taken)
     folder = str((file.parent if is_file else Path()).resolve())
     sys.path.insert(0, folder)
     invalidate_caches()
@@ -249,6 +252,4 @@ def import_own(name: str) -> None:
         if folder in sys.path:
             sys.path.remove(folder)
     if is_file and getattr(imported, "__file__", None) != str(file.resolve()):
-        raise PathError(
-            f"--import: a module named {shown(module)} is there already; rename {shown(name)}"
-        )
+        raise PathError(taken)
