@@ -57,6 +57,8 @@ REFUSED = [
     ("sweep malus --angle 0:9:3 --case 1 --case 2", "sweep takes one case"),
     ("chart npgr026 --near normal --quick", "--quick is for times"),
     ("chart npgr026 --near nirmal", "'nirmal' is not one of"),
+    ("run npgr026 --n1 0,170", "write '0.170' for one, and '0, 170' for two"),
+    ("run npgr026 --delta 400", "outside its range; give 0 deg .. 90 deg\n"),
     ("chart --interface --near normal --quick", "--quick is for times"),
     ("chart --quick npgr026", "--quick stands behind the preset"),
     ("chart --interface --peers r.json", "--peers stand beside a path"),

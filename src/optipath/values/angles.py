@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from optipath.errors import AngleWarning, OptipathError, ParameterError, UnitError, shown
+from optipath.errors import AngleWarning, Cure, OptipathError, ParameterError, UnitError, shown
 from optipath.values.affine import Affine, real_number
 from optipath.values.arrays import (
     MOST_AXES,
@@ -215,6 +215,16 @@ def refused(number: float, unit: str, limits: tuple[float, float]) -> tuple[str,
     # Six digits may say a number that is allowed.
     is_allowed = limits[0] <= parse_quantity(short, dimension).real <= limits[1]
     return format_quantity(number, unit) if is_allowed else short, hint
+
+
+def range_cure(wanted: str, hint: str) -> Cure:
+    """Return the cure of a refused number; texts at the command line are in no radians.
+
+    >>> range_cure("0 or more", "; did you mean 0.5?").written("command")
+    'give 0 or more; did you mean 0.5?'
+    """
+    usual = f"give {wanted}" + ("" if hint == _RADIANS else hint)
+    return Cure(f"give {wanted}{hint}", command=usual, page=usual)
 
 
 def _plain_numbers(value: Any) -> Any:

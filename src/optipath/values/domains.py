@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import Cure, Fault, ValueFault, did_you_mean, shown
-from optipath.values.angles import TURN, CosSin, refused
+from optipath.values.angles import TURN, CosSin, range_cure, refused
 from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import Parameter
@@ -167,7 +167,8 @@ class Domain:
         bad = ~self.allows(array)
         if np.any(bad):
             text, hint = self.refused(float(array[bad].ravel()[0]))
-            raise ValueFault(f"{owner} is {text}{first_place(bad)}; give {self.described()}{hint}")
+            cure = range_cure(self.described(), hint)
+            raise ValueFault(Fault(f"{owner} is {text}{first_place(bad)}", cure))
 
     def refused(self, number: float) -> tuple[str, str]:
         """Return a number that is not allowed as a text, and what was meant; mostly nothing."""

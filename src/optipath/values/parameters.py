@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import (
+    Fault,
     ParameterError,
     UnitError,
     ValueFault,
@@ -21,7 +22,7 @@ from optipath.errors import (
     there_are,
 )
 from optipath.values.affine import Affine
-from optipath.values.angles import TURN, CosSin, refused, warn_of_degrees
+from optipath.values.angles import TURN, CosSin, range_cure, refused, warn_of_degrees
 from optipath.values.arrays import array_of, as_argument, first_place, numbers_for, read_only, same
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.precision import doubles, within
@@ -327,10 +328,8 @@ class Parameter(Affine):
         of_degrees = any(TURN < abs(end) < math.inf for end in limits)
         unit = "" if of_degrees and dimension_of(self.unit) == "angle" else self.unit
         text, hint = refused(float(value), unit, limits)
-        raise ParameterError(
-            f"parameter '{self.name}' is {text}{first_place(bad)}, outside its range; give "
-            f"{format_range(*limits, unit)}{hint}"
-        )
+        reason = f"parameter '{self.name}' is {text}{first_place(bad)}, outside its range"
+        raise ParameterError(Fault(reason, range_cure(format_range(*limits, unit), hint)))
 
 
 _KINDS: dict[str, tuple[type, str]] = {

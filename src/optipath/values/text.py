@@ -156,18 +156,23 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
         except OptipathError as fault:
             raise ParameterError(*[each.under(fault.about) for each in fault.faults]) from None
     try:
-        if (match := _COMMA.fullmatch(text)) is not None:
-            one, other, unit = match.groups("")
-            raise UnitError(
-                f"'{text}' may be a number with a comma, or two; write '{one}.{other}{unit}' for "
-                f"one, and '{one}{unit}, {other}{unit}' for two"
-            )
         if "," in text:
-            return [part.strip() for part in text.split(",")]
+            return _listed(text)
         return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
     except UnitError as fault:
         where = f"parameter '{parameter.name}'"
         raise ParameterError(*[each.under(where) for each in fault.faults]) from None
+
+
+def _listed(text: str) -> list[str]:
+    """Return the parts between commas; ask where one may be a decimal point."""
+    if (match := _COMMA.fullmatch(text)) is not None:
+        one, other, unit = match.groups("")
+        raise UnitError(
+            f"'{text}' may be a number with a comma, or two; write '{one}.{other}{unit}' for one, "
+            f"and '{one}{unit}, {other}{unit}' for two"
+        )
+    return [part.strip() for part in text.split(",")]
 
 
 def column_file(text: str) -> str | None:
