@@ -12,7 +12,7 @@ import xarray as xr
 from dask.base import tokenize
 from dask.delayed import delayed
 
-from optipath.errors import ParameterError, shown, unknown
+from optipath.errors import Cure, Fault, ParameterError, shown, unknown
 from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.datasets import (
     attributes_of,
@@ -196,10 +196,10 @@ def _sizes_by_name(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
         if isinstance(size, str) and size == "auto":
             continue
         if not (is_whole(size) or is_whole(size, -1, -1)):
-            faults.append(
-                f"chunks cannot be {shown(size)}: give 'auto', a number of values along each "
-                f"dimension, or {{'{next(iter(sizes))}': 10}}; -1 keeps a dimension whole"
-            )
+            usual = "give 'auto', a number of values along each dimension"
+            several = f", or {{'{next(iter(sizes))}': 10}}; -1 keeps a dimension whole"
+            cure = Cure(usual + several, command=f"{usual}, such as 1000")
+            faults.append(Fault(f"chunks cannot be {shown(size)}", cure))
         elif name in sizes:
             results[name] = sizes[name] if size == -1 else int(size)
     if faults:
