@@ -86,8 +86,11 @@ class MachineCode:
         self._function = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(address)
 
     def __call__(self, *arguments: Any) -> int:
-        """Return the integer that the function gives for numbers and arrays."""
-        return self._function(*arguments)  # type: ignore[no-any-return]
+        """Return the integer that the function gives for numbers and arrays; it fails below 0."""
+        result: int = self._function(*arguments)
+        if result < 0:
+            raise RuntimeError("compiled code has failed")
+        return result
 
 
 def _find(name: str) -> None:

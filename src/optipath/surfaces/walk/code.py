@@ -110,7 +110,9 @@ define i64 @path({places}) {{
   %raised = alloca ptr
   %status = call i32 @{name}(ptr %result, ptr %raised, {places})
   %value = load i64, ptr %result
-  ret i64 %value
+  %good = icmp eq i32 %status, 0
+  %told = select i1 %good, i64 %value, i64 -1
+  ret i64 %told
 }}
 """
 
