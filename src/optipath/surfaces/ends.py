@@ -8,22 +8,25 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from optipath.errors import SurfaceError
 from optipath.kernels.carriers.carried import stokes_of
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.facets import plane_at_facet
 from optipath.kernels.filters import align
 from optipath.kernels.primitives import NUMPY
-from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, beam_of
+from optipath.surfaces.walk.beam import BLOCK, MOST_PHOTONS, UNPOLARISED, beam_of
 from optipath.surfaces.walk.layout import (
     AZIMUTH,
     CARRIED,
     END_K,
     END_LIGHTS,
     END_X,
+    ENDS,
     EVENTS,
     OUTCOME,
     OUTCOME_NAMES,
 )
+from optipath.values.arrays import refuse_too_large
 from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
@@ -92,7 +95,11 @@ def photon_ends(
         stokes=stokes,
         seed=seed,
         most_events=most_events,
-        others=whole_number("photons", photons),
+        others=whole_number("photons", photons, 1, MOST_PHOTONS),
+    )
+    number = 16 * (ENDS + CARRIED * beam.lights)
+    refuse_too_large(
+        (photons,), number, "give fewer photons", SurfaceError, "ends of {:.3g} photons"
     )
     blocks = [
         beam.block(first // BLOCK, min(BLOCK, photons - first), keeps=True).ends

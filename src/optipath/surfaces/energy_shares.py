@@ -13,7 +13,14 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import PhotonWarning, shown
-from optipath.surfaces.walk.beam import BLOCK, UNPOLARISED, beam_of, walked_in_order
+from optipath.surfaces.walk.beam import (
+    BLOCK,
+    MOST_PHOTONS,
+    MOST_THREADS,
+    UNPOLARISED,
+    beam_of,
+    walked_in_order,
+)
 from optipath.surfaces.walk.layout import (
     COUNT,
     DOWN,
@@ -309,8 +316,8 @@ def run_arguments(
     **light: Any,
 ) -> tuple[EnergyRun, int]:
     """Return the run of photons that a user asks for, of which none is walked yet."""
-    faults = [] if photons is None else whole_number("photons", photons)
-    faults += [] if threads is None else whole_number("threads", threads)
+    faults = [] if photons is None else whole_number("photons", photons, 1, MOST_PHOTONS)
+    faults += [] if threads is None else whole_number("threads", threads, 1, MOST_THREADS)
     if tolerance is not None and not 0.0 < (real_number(tolerance) or 0.0) < 1.0:
         faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
     beam = beam_of(sample, incidence, **light, others=faults)

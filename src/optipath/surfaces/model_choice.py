@@ -14,7 +14,7 @@ from optipath.surfaces.facet_model import alpha_of
 from optipath.surfaces.hemisphere.beam import SIDES, PixelMask
 from optipath.surfaces.hemisphere.measure import measure
 from optipath.surfaces.smooth import smooth_difference, smooth_exit
-from optipath.surfaces.walk.beam import beam_of
+from optipath.surfaces.walk.beam import MOST_PHOTONS, beam_of
 from optipath.values.affine import real_number
 from optipath.values.messages import PHOTONS_REPORTED, no_function
 from optipath.values.precision import whole_number
@@ -82,7 +82,7 @@ def decide(
     >>> found.model, found.undecided
     ('single-scattering', ())
     """
-    faults = Faults(whole_number("photons", photons))
+    faults = Faults(whole_number("photons", photons, 1, MOST_PHOTONS))
     faults += no_function("progress", progress, PHOTONS_REPORTED)
     if not 0.0 < (real_number(tolerance) or 0.0) < 1.0:
         faults.append(f"tolerance is {shown(tolerance)}; give one within 0 .. 1, such as 0.02")

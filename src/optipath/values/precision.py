@@ -192,14 +192,16 @@ def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:
     return False
 
 
-def whole_number(what: str, number: object, least: int = 1) -> list[str]:
-    """Return the sentence for what is no whole number, or too small; none for one that serves.
+def whole_number(what: str, number: object, least: int = 1, most: float = math.inf) -> list[str]:
+    """Return the sentence for what is no whole number within bounds; none for one that serves.
 
     >>> whole_number("threads", 1.5), whole_number("threads", 2)
     (['threads must be a whole number of 1 or more, not 1.5'], [])
+    >>> whole_number("threads", 5000, 1, 1024)
+    ['threads is 5000; give 1,024 at most']
     """
-    return (
-        []
-        if is_whole(number, least)
-        else [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
-    )
+    if is_whole(number, least, most):
+        return []
+    if is_whole(number, least):
+        return [f"{what} is {shown(number)}; give {most:,} at most"]
+    return [f"{what} must be a whole number of {least} or more, not {shown(number)}"]

@@ -16,7 +16,7 @@ from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, STATES, PartSums, 
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.smooth import flat_light
-from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
+from optipath.surfaces.walk.beam import MOST_PHOTONS, MOST_THREADS, UNPOLARISED, beam_of
 from optipath.values.arrays import refuse_too_large
 from optipath.values.messages import PHOTONS_REPORTED, no_function
 from optipath.values.precision import whole_number
@@ -124,9 +124,9 @@ def measure(
     >>> found.dataset.mueller.dims, dict(found.dataset.scalar.sizes)
     (('side', 'y', 'x', 'wavelength', 'out', 'in'), {'side': 1, 'y': 16, 'x': 16, 'wavelength': 1})
     """
-    faults = Faults(whole_number("photons", photons))
-    for name, number in {"events": events, "threads": threads}.items():
-        faults += [] if number is None else whole_number(name, number)
+    faults = Faults(whole_number("photons", photons, 1, MOST_PHOTONS))
+    faults += [] if events is None else whole_number("events", events)
+    faults += [] if threads is None else whole_number("threads", threads, 1, MOST_THREADS)
     faults += unknown("polarized", polarized, NUMBERS)
     faults += no_function("progress", progress, PHOTONS_REPORTED)
     pixels = faults.attempt("", Sensor.of, sensor)

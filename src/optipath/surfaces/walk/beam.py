@@ -161,6 +161,10 @@ _LEAST_COSINE = 1e-12
 """That of an angle that is 90 deg but for roundings."""
 
 
+MOST_PHOTONS, MOST_THREADS = 1_000_000_000_000, 1024
+"""How many photons a run may ask for, and how many threads."""
+
+
 def beam_of(
     sample: Sample,
     incidence: Any,
