@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 import sys
 from contextlib import contextmanager
-from dataclasses import dataclass
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
 from reprlib import Repr
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
@@ -26,8 +25,7 @@ Medium: TypeAlias = Literal["python", "file", "command", "page"]
 """Where a fault is read, and its cure is followed."""
 
 
-@dataclass(frozen=True)
-class Cure:
+class Cure(NamedTuple):
     """A cure as Python writes it, a file, the command line and the page.
 
     What is not given is written as in a file on the page and the command line, and as in Python in

@@ -215,7 +215,7 @@ WRONG = {
         "--tolerance nan": "tolerance is nan; give a standard error within 0 .. 1",
         "--azimuth 10,20,30": "--azimuth takes one angle, and '10,20,30' is several; give one",
         "--stokes 1,0,0": "--stokes takes 4 numbers with commas between, such as 1,0,0,0",
-        "--stokes 1,2,0,0": "stokes is [1.0, 2.0, 0.0, 0.0]; give S0 > 0 and S1^2 + S2^2 + S3^2 <= S0^2",
+        "--stokes 1,2,0,0": "stokes is [1.0, 2.0, 0.0, 0.0]; give S0 > 0 and S1^2 + S2^2",
         "--cells 1": "the sample: cells must be a whole number from 2",
         "--cells 10,20,30": "--cells takes 1 or 2 numbers with commas between, such as 640",
         "--cells 10000000": "a mesh of 1e+14 cells",

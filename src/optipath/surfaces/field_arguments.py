@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Sequence
-from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -172,6 +171,8 @@ def read_heights(path: str | PathLike[str]) -> Array:
             about=str(file),
         )
     try:
+        if file.is_fifo() and _READERS[ending] is not _text:
+            raise OSError(0, "it is a pipe")
         return _READERS[ending](file)
     except OSError as fault:
         why = fault.strerror or "it is damaged"
@@ -193,8 +194,8 @@ def _text(file: Path) -> Array:
 
 def _array(file: Path) -> Array:
     """Read an array of NumPy's, which cannot hold anything that would be run."""
-    content = BytesIO(bytes_of(file, _LARGEST))
-    return np.lib.format.read_array(content, allow_pickle=False)
+    with file.open("rb") as stream:
+        return np.lib.format.read_array(stream, allow_pickle=False)
 
 
 def _picture(file: Path) -> Array:
