@@ -170,9 +170,9 @@ def read_heights(path: str | PathLike[str]) -> Array:
             f"a file of heights cannot end in '{file.suffix}'{did_you_mean(ending, _READERS)}",
             about=str(file),
         )
+    if file.is_fifo() and _READERS[ending] is not _text:
+        raise SurfaceError("is a pipe; give a file", about=str(file))
     try:
-        if file.is_fifo() and _READERS[ending] is not _text:
-            raise OSError(0, "it is a pipe")
         return _READERS[ending](file)
     except OSError as fault:
         why = fault.strerror or "it is damaged"
