@@ -159,6 +159,10 @@ def test_a_list_has_its_texts_one_by_one_a_range_those_between_and_a_single_valu
     with pytest.raises(op.ParameterError, match=r"may be the ratio 0\.75, or a range") as caught:
         several_texts(NUMBER, "1.2:1.6")
     assert "write '0.75', or '1.2:1.6:11' for eleven" in str(caught.value)
+    # With decimal commas, a range is a list of ratios.
+    with pytest.raises(op.ParameterError, match=r"'5:3' may be the ratio"):
+        several_texts(NUMBER, "0,5:1,5:3")
+    assert several_texts(NUMBER, "1:100, 1:50") == ["1:100", "1:50"]
     assert len(several_texts(NUMBER, "1.2:1.6:11")) == 11
 
 

@@ -157,7 +157,11 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
             raise ParameterError(*[each.under(fault.about) for each in fault.faults]) from None
     try:
         if "," in text:
-            return _listed(text)
+            parts = _listed(text)
+            for part in parts:
+                if ":" in part:
+                    _is_ratio(parameter, part)
+            return parts
         return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
     except UnitError as fault:
         where = f"parameter '{parameter.name}'"
