@@ -128,7 +128,10 @@ def test_taking_over_is_what_one_would_write_through_filters_and_vertices_too():
         ([FOLLOWING], ["outside over (FOLLOWS), but no b", "incidence over (FOLLOWS), but no p"]),
         ([op.Interface(1.5, F)], ["'b0' takes its incidence over (FOLLOWS), but no"]),
         ([FRONT, op.Interface(1.0, F, 1.5, parallel=False)], ["no parallel boundary before it"]),
-        ([FRONT, op.Interface(1.0, F, 1.5, incidence_in=1.0)], ["has an incidence_in of its own"]),
+        (
+            [FRONT, op.Interface(1.0, F, 1.5, incidence_in=1.0)],
+            ["has an incidence_in of its own, which comes with it; leave"],
+        ),
         ([op.Interface(1.5 + 1j, 0.3), STACK], ["the medium before 'b1.in' absorbs"]),
         ([op.Interface(1.5, 0.3, outside=F), FOLLOWING], ["'b0' takes its outside over"]),
     ],

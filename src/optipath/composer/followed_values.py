@@ -126,11 +126,13 @@ class _Taking:
             )
         if "incidence" in missing and not (_may_measure(element) and self.layers.get(name)):
             why = "no parallel boundary before it sends it light that it has refracted"
+            cure = "give the angle"
             if not _may_measure(element):
                 why = "has an incidence_in of its own, which comes with it"
+                cure = "leave that out"
             elif name in self.in_space:
                 why = "its world frames say how it stands to what is before it"
-            yield f"'{name}' takes its incidence over (FOLLOWS), but {why}; give the angle"
+            yield f"'{name}' takes its incidence over (FOLLOWS), but {why}; {cure}"
 
 
 def _by_end(meetings: Any) -> dict[str, list[Meeting]]:
