@@ -183,7 +183,7 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
     >>> warn_of_degrees("a turn", 1.0)
     >>> warn_of_degrees("a turn", "720 deg")
     """
-    if type(value) is float and -TURN <= value <= TURN:
+    if type(value) is float and (-TURN <= value <= TURN or math.isinf(value)):
         return
     if type(value) is np.ndarray and value.dtype.char in "fd" and value.size:
         some = value if value.size <= _LOOKED_AT else value.flat[:: 1 + value.size // _LOOKED_AT]
