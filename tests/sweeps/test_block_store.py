@@ -1,5 +1,6 @@
 """The store of a job: what stands in its place is left alone, and what cannot be is told."""
 
+import os
 import shutil
 from unittest.mock import Mock
 
@@ -144,6 +145,27 @@ def test_metadata_that_cannot_be_read_are_told_and_attributes_may_be_added(store
         (store / name).write_bytes(content)
     zarr.open_group(store, mode="r+", use_consolidated=False).attrs["note"] = "mine"
     keep_blocks(Powers(2), store)
+
+
+@rows("name", ["power/0.0", "power/.zarray", "blocks/done/1.0", "number/0", ".zattrs"])
+def test_a_pipe_or_a_device_in_a_store_is_not_waited_for(store, name):
+    keep_blocks(Powers(2), store)
+    for make in (os.mkfifo, lambda file: file.symlink_to("/dev/zero")):
+        (store / name).unlink()
+        make(store / name)
+        refused(store, f"{name}' is there, and is no file; take another name, or delete it")
+    shutil.rmtree(store)
+
+
+def test_damaged_coordinates_are_told(store):
+    keep_blocks(Powers(2), store)
+    for name in ("number/0", "called/0"):
+        content = (store / name).read_bytes()
+        (store / name).unlink()
+        refused(store, f"'{name[:-2]}' of the store '.*' is damaged; take another name, or delete")
+        (store / name).write_bytes(content)
+    zarr.open_group(store, mode="r+", use_consolidated=False)["number"][1] = 7.0
+    refused(store, "'number' of the store '.*' is damaged")
 
 
 def test_a_store_goes_into_an_empty_folder_and_stays_where_a_block_is_done(tmp_path, store):

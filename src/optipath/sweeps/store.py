@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.sweeps.jobs import BlockJob
+    from optipath.sweeps.jobs import BlockJob, WholeArray
 
 
 FORMAT = 3
@@ -65,7 +65,7 @@ class BlockStore:
             store._check_record(record)
             if _MARKS not in store.group:
                 _make(store.group, job)
-            _ = store.arrays
+            store._check_coords(job.coords)
         return store
 
     def __getstate__(self) -> dict[str, Any]:
@@ -179,6 +179,13 @@ class BlockStore:
                 )
         raise JobError(f"the record of '{place}' is damaged; {_OTHER_PLACE}")
 
+    def _check_coords(self, coords: Mapping[str, WholeArray]) -> None:
+        """Refuse coordinates that are damaged, which no block writes again."""
+        for name, whole in coords.items():
+            there, given = _read(self.arrays[name], ...), whole.values
+            if there is None or there.dtype != given.dtype or there.tobytes() != given.tobytes():
+                raise JobError(f"'{name}' of the store '{self.place}' is damaged; {_OTHER_PLACE}")
+
     @contextmanager
     def _reading(self) -> Iterator[None]:
         """Refuse metadata that cannot be read, of which Zarr may raise anything."""
@@ -204,8 +211,13 @@ class BlockStore:
 
 def _is_free(place: str) -> bool:
     """Tell whether nothing is at a place yet, where a store can be made."""
-    if "://" not in place and not (parent := Path(place).resolve().parent).is_dir():
-        raise JobError(f"there is no folder '{parent}' for a store; make it first")
+    if "://" not in place:
+        here = Path(place).resolve()
+        if not here.parent.is_dir():
+            raise JobError(f"there is no folder '{here.parent}' for a store; make it first")
+        for each in (here, *here.rglob("*")):  # Zarr would wait for who writes to a pipe.
+            if each.exists() and not (each.is_file() or each.is_dir()):
+                raise JobError(f"'{each}' is there, and is no file; {_OTHER_PLACE}")
     try:
         files, path = url_to_fs(place)
         is_file = files.isfile(path)

@@ -46,10 +46,10 @@ def place_of_store(store: str | PathLike[str]) -> str:
 give a name that ends in .zarr or .nc, such as 'sweep.zarr'
     """
     is_path = isinstance(store, str | os.PathLike)
-    place = os.fspath(store) if is_path else ""
+    place = os.fspath(store).rstrip("/") if is_path else ""
     # A URL of a file of NetCDF has nothing beside it where blocks could be kept.
     endings = (".zarr",) if "://" in place else (".zarr", ".nc")
-    if Path(place).suffix not in endings:
+    if Path(place).suffix not in endings or "\0" in place:
         raise ParameterError(
             f"store {shown(place if is_path else store)} is neither a Zarr store nor a NetCDF "
             f"file: give a name that ends in {' or '.join(endings)}, such as 'sweep.zarr'"
