@@ -263,3 +263,19 @@ def test_a_module_that_was_edited_is_another_sweep(tmp_path, monkeypatch):
     (tmp_path / "halving_kept.py").write_text(module + "FACTOR = 0.7")
     with pytest.raises(op.errors.JobError, match=r"another job: it has 'element class .*Half"):
         path.sweep(angle=[0.1, 0.2], store=tmp_path / "half.zarr")
+
+
+def test_numbers_that_a_module_has_from_elsewhere_are_of_the_sweep(tmp_path, monkeypatch):
+    module = SCRIPT.split("path =", maxsplit=1)[0].replace("script", "fed-module")
+    fed = "TABLE = {'half': [0.5]}\n\n\ndef factor():\n    return TABLE['half'][0]\n"
+    (tmp_path / "halving_fed.py").write_text(fed + module.replace("0.5", "factor()"))
+    monkeypatch.syspath_prepend(tmp_path)
+    loaded = importlib.import_module("halving_fed")
+    path = op.Source() >> loaded.Half(op.Parameter("angle")) >> op.Detector()
+    path.sweep(angle=[0.1, 0.2], store=tmp_path / "half.zarr")
+    for name, value in (("TABLE", {"half": [0.7]}), ("TABLE", np.array([0.7]))):
+        with monkeypatch.context() as patch:
+            patch.setattr(loaded, name, value)
+            with pytest.raises(op.errors.JobError, match="another job: it has 'element class"):
+                path.sweep(angle=[0.1, 0.2], store=tmp_path / "half.zarr")
+    path.sweep(angle=[0.1, 0.2], store=tmp_path / "half.zarr")

@@ -13,6 +13,8 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 from uuid import uuid4
 
+import numpy as np
+
 from optipath.composer.composer import Composer
 from optipath.elements.own_element import is_own
 from optipath.errors import PathError
@@ -117,7 +119,7 @@ class OwnClass(NamedTuple):
 
     @classmethod
     def of(cls, element_class: type[Any]) -> OwnClass:
-        """Return what tells a class from others: its code, and the files of its package."""
+        """Return what tells a class from others: files of its package, its code and numbers."""
         module, name = element_class.__module__, element_class.__qualname__
         package = sys.modules.get(module.partition(".")[0])
         file = getattr(package, "__file__", None)
@@ -128,9 +130,35 @@ class OwnClass(NamedTuple):
         for source in [Path(file)] if is_one else sorted(Path(file).parent.rglob("*.py")):
             digest.update(sha256(source.read_bytes()).digest())
         # A file may have been edited after the class was imported.
-        for each in vars(element_class).values():
-            code = getattr(unwrap(getattr(each, "__func__", each)), "__code__", None)
-            if code is not None:
-                constants = [n for n in code.co_consts if isinstance(n, int | float | complex)]
-                digest.update(repr((code.co_code, code.co_names, constants)).encode())
+        used = dict(vars(element_class))
+        todo = [*used.values()]
+        while todo:
+            each = todo.pop(0)
+            function = unwrap(getattr(each, "__func__", each)) if callable(each) else each
+            code = getattr(function, "__code__", None)
+            if code is None or function.__module__ != module:
+                continue
+            constants = [n for n in code.co_consts if isinstance(n, int | float | complex)]
+            digest.update(repr((code.co_code, code.co_names, constants)).encode())
+            known = function.__globals__
+            more = {n: known[n] for n in code.co_names if n in known and n not in used}
+            used |= more
+            todo += more.values()
+        # Numbers may be out of other files, or from the command line.
+        for key in sorted(used):
+            if key[:2] != "__":
+                digest.update(key.encode() + _numbers_in(used[key]))
         return cls(module, name, digest.hexdigest()[:16])
+
+
+def _numbers_in(value: Any) -> bytes:
+    """Return what tells numbers and texts from others; nothing of what is neither."""
+    if isinstance(value, np.ndarray | np.generic) and not value.dtype.hasobject:
+        return f"{value.dtype.str} {value.shape} ".encode() + value.tobytes()
+    if isinstance(value, int | float | complex | str):
+        return repr(value).encode()
+    parts = value.items() if isinstance(value, dict) else value
+    return b"(%b)" % b",".join(map(_numbers_in, parts)) if isinstance(value, _SEVERAL) else b""
+
+
+_SEVERAL = tuple, list, dict
