@@ -153,7 +153,10 @@ def test_what_is_let_through_is_seen_from_below():
 @rows(
     "direction, message",
     [
-        ("90 deg", r"has z = 6.12323e-17; .* give a z above 0"),
+        *(
+            (each, r"deg\) from the normal; .* such as '45 deg'")
+            for each in ("90 deg", "300 deg", 45)
+        ),
         ([0.6, 0.0, -0.8], r"has z = -0.8; .* give a z above 0"),
         ([0.1, 0.2], r"must have shape \(..., 3\), not \(2,\)"),
         (op.Parameter("a"), "parameter 'a'"),

@@ -34,7 +34,14 @@ def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
         entries = np.asarray(argument, dtype=object)
         # An angle, or several as texts; numbers in a row are a vector.
         if entries.ndim == 0 or isinstance(next(entries.flat, None), str):
-            angle = ANGLE.check("direction", argument)
+            angle = np.asarray(ANGLE.check("direction", argument))
+            # From 3 quarter turns on, a vector would point to the right side again.
+            if np.any(beyond := np.abs(angle) >= np.pi / 2.0):
+                worst = float(angle[beyond].flat[0])
+                raise SurfaceError(
+                    f"direction is {worst:.6g} rad ({np.degrees(worst):.6g} deg) from the normal; "
+                    f"give an angle in the plane of incidence below 90 deg, such as '45 deg'"
+                )
             sin, height = np.sin(angle), np.cos(angle) if up else -np.cos(angle)
             # Adding 0 turns -0 into 0.
             parts = [sin * np.cos(azimuth), sin * np.sin(azimuth), height]
