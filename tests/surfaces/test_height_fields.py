@@ -134,7 +134,7 @@ def test_heights_of_any_real_type_become_float64_that_do_not_change_nor_do_their
 
 PAIR = "or two for x and y, not "
 ALPHA = f"alpha must be a positive number, {PAIR}"
-SIZE = f"size must be a positive number, {PAIR}"
+SIZE, LIMITS = f"size must be a positive number, {PAIR}", "give it in a unit of which it is 1e-30 "
 CELLS = f"cells must be a whole number from 2, {PAIR}"
 SEED = "seed must be a whole number of 0 or more, or a numpy.random.SeedSequence, not "
 MESH = "and this machine has"
@@ -148,6 +148,9 @@ MESH = "and this machine has"
         *(({"seed": each}, SEED) for each in (-1, None)),
         *(({"alpha": 1.0} | each, MESH) for each in ({"size": 1e20}, {"cells": 10**7})),
         *(({"size": each}, SIZE) for each in (0, "400 um", (1, 2, 3), (400.0, 0.0), [])),
+        *(({"size": each}, LIMITS) for each in (9e-31, 1.1e30)),
+        ({"alpha": 1e-310}, LIMITS),
+        ({"waves": 10**13}, "a sum of 1e+13 waves"),
         ({"periodic": 1}, "periodic is 1; give True or False"),
     ],
 )
@@ -167,6 +170,7 @@ def test_a_random_field_is_refused_that_cannot_be(wrong, said):
         (np.where(MAP == 8.0, -np.inf, MAP), False, "1 of 12 heights are not finite, the first -i"),
         *((each, False, "; give real numbers, rows along y") for each in (MAP + 1j, MAP > 2)),
         (np.ma.masked_greater(MAP, 4.0), False, "the array of heights has masked entries"),
+        (1e300 * MAP, False, "give them in a unit of at most 1e+30"),
     ],
 )
 def test_a_map_of_heights_is_refused_that_cannot_be(heights, periodic, said):

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 Pair = tuple[float, float]
 
+_FARTHEST = 1e30
+"""The largest length, and one over the least, whose ratios to others still have squares."""
+
 
 def pair_of(what: str, value: Any, faults: list[str]) -> Pair:
     """Return positive numbers for x and for y, of one number or of a pair.
@@ -35,6 +38,10 @@ def pair_of(what: str, value: Any, faults: list[str]) -> Pair:
     """
     both = _both(value)
     if len(both) == 2 and all((real_number(each) or 0.0) > 0.0 for each in both):
+        if not all(1.0 / _FARTHEST <= each <= _FARTHEST for each in both):
+            limits = f"{1.0 / _FARTHEST:g} .. {_FARTHEST:g}"
+            faults.append(f"{what} is {shown(value)}; give it in a unit of which it is {limits}")
+            return 1.0, 1.0
         return float(both[0]), float(both[1])
     faults.append(f"{what} must be a positive number, or two for x and y, not {shown(value)}")
     return 1.0, 1.0
@@ -73,6 +80,8 @@ def heights_of(heights: Any, faults: Faults, *, periodic: bool) -> Array:
             f"{stored[row, column]} at heights[{row}, {column}]; cut these out, or fill them with "
             f"heights around them"
         )
+    elif (highest := np.abs(stored).max()) > _FARTHEST:
+        faults.append(f"heights reach {highest:.3g}; give them in a unit of at most {_FARTHEST:g}")
     stored.setflags(write=False)
     return stored
 
@@ -177,7 +186,7 @@ def read_heights(path: str | PathLike[str]) -> Array:
     except OSError as fault:
         why = fault.strerror or "it is damaged"
         raise SurfaceError(f"cannot be read: {why}", about=str(file)) from None
-    except (ValueError, EOFError) as fault:
+    except (ValueError, EOFError, MemoryError) as fault:
         raise SurfaceError(
             f"is no table of heights: {' '.join(str(fault).split())}", about=str(file)
         ) from None

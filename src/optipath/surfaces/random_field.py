@@ -21,8 +21,8 @@ from optipath.surfaces.field_arguments import (
 from optipath.values.arrays import refuse_too_large
 from optipath.values.precision import Array, is_whole, whole_number
 
-_CELL = 32
-"""How many bytes a cell takes, with what is made of it."""
+_CELL, _WAVE = 32, 128
+"""How many bytes a cell and a wave take, with what is made of them."""
 
 
 def random_field(
@@ -46,6 +46,7 @@ def random_field(
         raise SurfaceError(*faults)
     fewer = "take fewer cells, or a smaller field"
     refuse_too_large(mesh, _CELL, fewer, SurfaceError, "mesh of {:.3g} cells")
+    refuse_too_large((waves,), _WAVE, "take fewer waves", SurfaceError, "sum of {:.3g} waves")
     warn_of_coarse(rough, sides, mesh)
     x, y = (
         np.arange(count + (not is_periodic)) * (side / count)
