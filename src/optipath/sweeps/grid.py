@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
 from math import prod
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -159,7 +161,12 @@ def free_memory() -> int:
         psutil: Any = import_module("psutil")  # Dask's cluster brings it.
     except ImportError:
         return memory()
-    return min(memory(), int(psutil.virtual_memory().available))
+    free = [memory(), int(psutil.virtual_memory().available)]
+    for name in ("memory.max", "memory/memory.limit_in_bytes"):  # Of a container, on Linux.
+        with suppress(OSError, ValueError):  # No such file, or "max".
+            limit = int((Path("/sys/fs/cgroup") / name).read_text("ascii"))
+            free.append(max(0, limit - psutil.Process().memory_info().rss))
+    return min(free)
 
 
 def _text(size: int) -> str:
