@@ -137,6 +137,7 @@ MALITSON, BOYD = {"page": "Malitson"}, {"page": "Boyd-o", "k": 0.0}
         ("SiO2", MALITSON, "or give it: k = 0.0"),
         ("BaF2", {"page": "Bosomworth-5K"}, "has no n (index of refraction), only k within 54945"),
         ("gold", {"n": 1.0, "k": 0.0}, "op.Material(n, k) needs no name"),
+        ("silica", {"interpolation": "monotone"}, "of which nothing is interpolated"),
         ("silica", {"extrapolate": "linear"}, 'ask for extrapolate="nearest", or stay within it'),
         ("gold", {"interpolation": "cubic"}, "interpolation 'cubic' is unknown; there are"),
         ("gold", {"extrapolate": "near"}, "did you mean 'nearest'?"),

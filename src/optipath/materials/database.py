@@ -143,6 +143,11 @@ def page_curve(
     chosen = {part: entry for part, entry in giving.items() if part in wanted}
     faults += unknown("interpolation", interpolation, INTERPOLATIONS)
     faults += unknown("extrapolate", extrapolate, EXTRAPOLATIONS)
+    if interpolation == "monotone" and not any(entry.columns for entry in chosen.values()):
+        faults.append(
+            f"{label} is by a formula, of which nothing is interpolated; leave interpolation = "
+            f"'monotone' out"
+        )
     if extrapolate == "linear" and not all(entry.columns for entry in chosen.values()):
         faults.append(
             f"{label} is by a formula, which has no straight line beyond its range; "
