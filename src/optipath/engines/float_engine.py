@@ -59,23 +59,31 @@ class FloatEngine(Engine["Formula", "Callable[..., tuple[Any, ...] | None]"]):
 
     def compiled(self, formula: Formula) -> Callable[..., tuple[Any, ...] | None]:
         """Return a function of floats: None or ArithmeticError, ValueError where it fails."""
-        space: dict[str, Any] = dict(_SPACE)
-        exec(compile(source(formula, space), "<formula>", "exec"), space)  # noqa: S102 - our own
-        path: Callable[..., tuple[Any, ...] | None] = space["path"]
-        return path
+        return _maker(formula)()
 
 
 FLOAT_ENGINE = FloatEngine()
 
 
-def source(formula: Formula, space: dict[str, Any]) -> str:
-    """Return the text of ``path(*given)``, and put the functions that it calls into its names.
+def _maker(formula: Formula, known: Sequence[Symbol] = ()) -> Callable[..., Callable[..., Any]]:
+    """Return the function that makes the function of a formula from the inputs that are known."""
+    space: dict[str, Any] = dict(_SPACE)
+    exec(compile(source(formula, space, known), "<formula>", "exec"), space)  # noqa: S102 - our own
+    maker: Callable[..., Callable[..., Any]] = space["made"]
+    return maker
 
-    What is used once is inlined, so choices are lazy.
+
+def source(formula: Formula, space: dict[str, Any], known: Sequence[Symbol] = ()) -> str:
+    """Return the text of ``made(*known)(*given)``, and put the functions it calls into its names.
+
+    What follows from known inputs alone is computed once. What is used once is inlined, so choices
+    are lazy.
     """
     texts: dict[int, str] = {}
     depth: dict[int, int] = {}
     lines: list[str] = []
+    early = {symbol.index for symbol in known}
+    first: list[str] = []
 
     def written(operand: Any) -> str:
         if not isinstance(operand, Symbol):
@@ -96,12 +104,16 @@ def source(formula: Formula, space: dict[str, Any]) -> str:
             template, *arguments = step.operands
             items = formula.items[step.index]
             which = tuple(sorted(items))
-            space[f"f{step.index}"] = template.function(which)
-            given = ", ".join([written(arguments[place]) for place in template.needs(which)])
+            space[f"f{step.index}"], needs = template.function(which, arguments)
+            given = ", ".join([written(arguments[place]) for place in needs])
             results = "".join([f"t{items[place]}, " for place in which])
             lines.append(f"{results}= f{step.index}({given})")
             continue
         text = OPERATIONS[step.operation].text.format(*map(written, step.operands))
+        if early and all(o.index in early for o in step.operands if isinstance(o, Symbol)):
+            early.add(step.index)
+            first.append(f"t{step.index} = {text}")
+            continue
         deep = 1 + max(
             (depth.get(o.index, 0) for o in step.operands if isinstance(o, Symbol)), default=0
         )
@@ -112,9 +124,10 @@ def source(formula: Formula, space: dict[str, Any]) -> str:
             lines.append(f"t{step.index} = {text}")
     results = ", ".join(map(written, formula.results))
     lines += [f"if {written(formula.holds)}:", f"    return ({results},)", "return None"]
-    argument = ", ".join(f"t{s.index}" for s in formula.inputs)
-    body = "".join(f"    {line}\n" for line in lines)
-    return f"def path({argument}):\n{body}"
+    made = ", ".join(f"t{s.index}" for s in known)
+    given = ", ".join(f"t{s.index}" for s in formula.inputs if s.index not in early)
+    first += [f"def path({given}):", *[f"    {line}" for line in lines], "return path"]
+    return f"def made({made}):\n" + "".join([f"    {line}\n" for line in first])
 
 
 class Template:
@@ -131,7 +144,7 @@ class Template:
                 inputs.append(argument)
         self.results = factory(reproducible_symbolic(dtype.name))(*inputs)
         self._parts: dict[tuple[int, ...], tuple[Formula, tuple[int, ...]]] = {}
-        self._functions: dict[tuple[int, ...], Callable[..., Any]] = {}
+        self._makers: dict[Any, Callable[..., Callable[..., Any]]] = {}
 
     def needs(self, which: tuple[int, ...]) -> tuple[int, ...]:
         """Return the places of the arguments that some of the results need."""
@@ -141,11 +154,28 @@ class Template:
         """Return how many operations some of the results take."""
         return len(self._part(which)[0].steps)
 
-    def function(self, which: tuple[int, ...]) -> Callable[..., Any]:
-        """Return the function of these arguments that gives some of the results."""
-        if which not in self._functions:
-            self._functions[which] = FLOAT_ENGINE.compiled(self._part(which)[0])
-        return self._functions[which]
+    def function(
+        self, which: tuple[int, ...], arguments: Sequence[Any]
+    ) -> tuple[Callable[..., Any], list[int]]:
+        """Return the function that gives some of the results, and the places of what it is given.
+
+        Arguments that are known are part of the function.
+        """
+        places = self.needs(which)
+        known = [place for place in places if not isinstance(arguments[place], Symbol)]
+        try:
+            function = self._made(which, known)(*[float(arguments[place]) for place in known])
+        except (ArithmeticError, ValueError):
+            return self._made(which, [])(), list(places)
+        return function, [place for place in places if place not in known]
+
+    def _made(self, which: tuple[int, ...], known: list[int]) -> Callable[..., Callable[..., Any]]:
+        key = which, tuple(known)
+        if key not in self._makers:
+            formula, places = self._part(which)
+            symbols = dict(zip(places, formula.inputs, strict=True))
+            self._makers[key] = _maker(formula, [symbols[place] for place in known])
+        return self._makers[key]
 
     def _part(self, which: tuple[int, ...]) -> tuple[Formula, tuple[int, ...]]:
         if which not in self._parts:
@@ -167,7 +197,7 @@ def call(
 
     The key names the function for all paths; without one, it is recorded for this path alone.
     """
-    whole = key, recorder.dtype.name, tuple(map(_form_of, arguments))
+    whole = key, recorder.precision, tuple(map(_form_of, arguments))
     template = None if key is None else _TEMPLATES.get(whole)
     if template is None:
         template = Template(recorder.dtype, factory, arguments)

@@ -202,7 +202,7 @@ class SymbolicInputs:
     @property
     def primitives(self) -> Primitives:
         """What kernels are to be made of."""
-        return SYMBOLIC if self.counted else reproducible_symbolic(self.recorder.dtype.name)
+        return SYMBOLIC if self.counted else reproducible_symbolic(self.recorder.precision)
 
     def of(self, program: Program) -> list[Any]:
         """Return a symbol, or a number that is known, for each operand."""
@@ -296,7 +296,7 @@ class SymbolicInputs:
         return of_angle(self.primitives, digits, operand.part, angle, left, first=first)
 
     def _called_circular(self, operand: Operand, angle: Any, *, first: bool) -> Any:
-        digits = DIGITS[self.recorder.dtype.name]
+        digits = DIGITS[self.recorder.precision]
 
         def factory(xp: Primitives) -> Callable[[Any], tuple[Any, Any]]:
             return lambda angle: (
