@@ -18,6 +18,7 @@ from optipath.engines.symbols import (
     OPERATIONS,
     Recorder,
     Symbol,
+    key_of,
     reproducible_symbolic,
 )
 from optipath.kernels.carriers.carrier import Carrier
@@ -206,7 +207,7 @@ def call(
                 _TEMPLATES.clear()
             _TEMPLATES[whole] = template
     operands = template, *arguments
-    names = [a.index if isinstance(a, Symbol) else repr(a) for a in arguments]
+    names = map(key_of, arguments)
     made = recorder.entered(("call", id(template), *names), "call", operands, "float", ONE_AXIS)
     results = []
     for place, result in enumerate(template.results):
@@ -215,8 +216,9 @@ def call(
         elif result.operation == "input":
             results.append(arguments[int(result.operands[0])])
         else:
-            names = ["item", made.index, place]
-            item = recorder.entered(tuple(names), "item", (made, place), result.kind, ONE_AXIS)
+            item = recorder.entered(
+                ("item", made.index, place), "item", (made, place), result.kind, ONE_AXIS
+            )
             item.positive = result.positive
             results.append(item)
     return tuple(results)

@@ -178,12 +178,12 @@ class Recorder:
         result = simplified(operation, operands)
         if result is not UNKNOWN:
             return result
-        names = [o.index if isinstance(o, Symbol) else repr(o) for o in operands]
+        names: Any = tuple(map(key_of, operands))
         if about.commutes:
-            names.sort(key=str)
+            names = frozenset(names)
         kind = strongest(operands[-2:]) if about.kind == "same" else about.kind
         axes = frozenset().union(*[symbol.axes for symbol in symbols])
-        symbol = self.entered((operation, *names), operation, operands, kind, axes)
+        symbol = self.entered((operation, names), operation, operands, kind, axes)
         symbol.positive = kind == "float" and stays_positive(operation, operands)
         return symbol
 
@@ -219,6 +219,14 @@ class Recorder:
 
 
 _SAME = OPERATIONS["add"]
+
+
+def key_of(operand: Any) -> Any:
+    """Return what tells an operand from others: the place of a symbol, the digits of a number."""
+    if isinstance(operand, Symbol):
+        return operand.index
+    # Quicker than NumPy's own, and tells 0.0 from -0.0 as well.
+    return float.__repr__(operand) if isinstance(operand, float) else repr(operand)
 
 
 def strongest(operands: Iterable[Any]) -> str:
