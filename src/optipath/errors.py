@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Mapping
 from contextlib import contextmanager
 from difflib import get_close_matches
 from importlib import import_module
@@ -356,6 +357,37 @@ def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
     if isinstance(word, str) and word in known:
         return []
     return [f"{what} {shown(word)} is unknown{did_you_mean(word, known)}"]
+
+
+def no_value(name: str) -> Fault:
+    """Return the fault of a parameter that nobody has given a value.
+
+    >>> no_value("n")
+    "parameter 'n' has no value; give one, n=..."
+    """
+    cure = Cure.giving(name, "give one, {}".format)
+    return Fault(f"parameter '{name}' has no value", cure, subject=name)
+
+
+def check_named(
+    call: str, unnamed: Sequence[object], names: Iterable[str], first: str = ""
+) -> None:
+    """Refuse values that are given without a name.
+
+    >>> check_named("run", [0.5], ["delta", "rho"])
+    Traceback (most recent call last):
+    optipath.errors.ParameterError: values are given by name: run(delta=0.5); there are: delta, rho
+    """
+    if not unnamed:
+        return
+    value, known = unnamed[0], list(names)
+    if not known:
+        raise ParameterError(f"{call}() takes no values here: no parameter is open")
+    written = (
+        f"**{shown(dict(value))}" if isinstance(value, Mapping) else f"{known[0]}={shown(value)}"
+    )
+    given = ", ".join(filter(None, (first, written)))
+    raise ParameterError(f"values are given by name: {call}({given}){there_are(known)}")
 
 
 def listed(words: Sequence[str]) -> str:

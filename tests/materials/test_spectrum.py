@@ -157,7 +157,7 @@ def test_a_file_has_samples_by_the_name_of_their_column(tmp_path):
     with pytest.raises(op.ValueFault, match=r"lamp.csv.*'?respons"):
         op.Spectrum.from_csv(file, "response")
     file.write_text("wavelength (nm), power\n400, -1\n500, 1")
-    told = r"lamp.csv: line 2: power is -1; write none below 0, such as 0 for what"
+    told = r"value of lamp is -1 at 0; give numbers of 0 or more"
     with pytest.raises(op.ValueFault, match=told):
         op.Spectrum.from_csv(file)
 
@@ -211,7 +211,7 @@ REFUSED = [
     (lambda: op.Spectrum(THREE, [1.0, 2.0]), "3 wavelengths and 2"),
     (lambda: op.Spectrum(THREE, THREE, outside="near"), "'nearest' and 'linear'"),
     (lambda: sampled(PAIR, [1.0, -1.0]), "is -1 at 1; give numbers of 0 or more"),
-    (lambda: sampled([400.0, 500.0], [1.0, 1.0]), "1e-9"),
+    (lambda: sampled([400.0, 500.0], [1.0, 1.0]), "nanometres write '400 nm'"),
     (lambda: sampled(SAME, [1.0, 1.0]), "400 nm twice"),
     *((lambda: sampled(PAIR, [1.0, np.nan]), "nan"), (lambda: sampled(PAIR, None), "value")),
     (lambda: sampled(PAIR, [1.0, 1.0], outside=1.0), "give 0.0 where"),

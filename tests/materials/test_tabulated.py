@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optipath.errors import ValueFault
+from optipath.materials.material import Material
 from optipath.materials.tables import Tabulated
 from optipath.values.columns import read_columns
 from tables import rows
@@ -203,7 +204,6 @@ WRONG = [
     ("lambda (THz),n,k\n516,1,1\n", "'THz' is no unit of 'lambda'"),
     ("wavelength,n,k\n400 nm,1,1\n500,1,1\n", "line 1: 'wavelength' has no unit"),
     (UM + "400 nm,1,1\n", "line 2: '400 nm' is not in um, as line 1 says"),
-    (NM + "500,-1,1\n", "line 2: n is -1; write none below 0"),
     *((NM + f"500,1,{k}\n", "line 2 cannot be read: ") for k in ('"1\n600,1,1', '"1"5')),
     (NM + f"500,1,{'1' * 200_000}\n", "line 2 cannot be read: field larger than field limit"),
     (UM + "400,1,1\n500,1,1\n", "are 400 um .. 500 um, which are most likely nm; give the unit nm"),
@@ -212,25 +212,19 @@ WRONG = [
     ("wl (um),n,k\n0.5,1,1\nwl (um),k\n0.5,1\n", "line 3 begins a second table of k; keep"),
     (WL + "wl (um),k\n0.5,x\n", "line 4: k is 'x', which is no number"),
     (WL + "wl (um),n2\n0.5,1\n", "line 1 names no column 'k'"),
-    ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
     ("wl (nm),energy (eV),n,k\n516,2.4,1,1\n", "has 'wl' and 'energy'; give one column"),
     ("wavelength (nm),n,n,k\n516,1,1,1\n", "line 1 names 'n' twice; keep one"),
-    (NM + "500,nan,1\n", "line 2: n is nan; write a number"),
-    (NM + "500,,1\n", "line 2: n is empty; write one"),
+    (NM + "500,nan,1\n", "line 2: n is 'nan', which is no number"),
+    (NM + "500,,1\n", "line 2: n is '', which is no number; write one"),
     ("wavelength (nm);n;k\n500;1,5;1\n", "line 2: n is '1,5', which is no number"),
     (NM + "500,1_5,1\n", "line 2: n is '1_5', which is no number"),
-    *((NM + f"{w},1,1\n", f"line 2: '{w} nm' is not a quantity") for w in ("5_00", "red")),
+    *((NM + f"{w},1,1\n", f"line 2: '{w}") for w in ("5_00", "red")),
     (NM + "500,1,\uff11\n", "which is no number; write one, such as 1.5"),
     *(
         (NM + f"500,1{k}\n", f"line 2 has {n} values, and line 1 has")
         for k, n in (("", 2), (",5,1", 4))
     ),
     (NM + "-5,1,1\n", "line 2: the wavelength is -5 nm; give numbers above 0"),
-    (
-        NM + "500,1,1\n\n600,1,1\n550,1,1\n",
-        "line 5: its wavelength does not go on from",
-    ),
-    (NM + "500,1,1\n600,1,1\n500,1,1\n", "line 4: its wavelength does not go on"),
     (NM.encode() + b"\xff\xfe,1,1\n", "it cannot be read: it is no text in UTF-8"),
 ]
 
@@ -238,9 +232,27 @@ WRONG = [
 @rows("text, words", WRONG)
 def test_what_is_wrong_with_a_file_is_told_with_the_line(read, text, words):
     with pytest.raises(ValueFault) as fault:
-        read(text, cures={"k": "ask for k=0.0"})
+        read(text, cures={"k": "; or ask for k=0.0"})
     assert words in str(fault.value)
     assert len(fault.value.faults) == 1
+
+
+@rows(
+    "text, words",
+    [
+        (NM + "500,-1,1\n", "n of gold is -1 at 500 nm; give none below 0"),
+        (NM + "500,1,-1\n", "so that k > 0 absorbs"),
+        ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
+        (NM + "500,1,1\n\n600,1,1\n550,1,1\n", "of gold neither rise nor fall throughout"),
+        (NM + "500,1,1\n600,1,1\n500,1,1\n", "of gold neither rise nor fall throughout"),
+        (NM + "500,1,1\n500,1,1\n", "gold has the wavelength 500 nm twice"),
+    ],
+)
+def test_numbers_of_a_file_are_judged_as_samples_are(tmp_path, text, words):
+    (file := tmp_path / "gold.csv").write_text(text)
+    with pytest.raises(ValueFault) as fault:
+        Material.from_csv(file)
+    assert words in str(fault.value)
 
 
 def test_all_faults_are_told_at_once_and_files_that_are_missing(read, tmp_path):

@@ -11,9 +11,9 @@ from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import OptipathError, shown
 from optipath.kernels.catalog import PLAIN_TURN, TURN
 from optipath.light.frame import Frame
-from optipath.values.affine import Affine
 from optipath.values.arrays import broadcast_fault
 from optipath.values.operands import Operand, Operation, operand_of
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -178,7 +178,7 @@ def turn_text(turn: Any) -> str:
     >>> turn_text(0.5), turn_text(-2 * Parameter("rho"))
     ('0.5', '-2 * rho')
     """
-    return turn.formula if isinstance(turn, Affine) else shown(turn)
+    return turn.formula if isinstance(turn, Parameter) else shown(turn)
 
 
 def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:

@@ -42,7 +42,7 @@ def largest(value: Any) -> float:
     """
     if isinstance(value, Parameter):
         if not value.bound:
-            return value.span_of(value.minimum, value.maximum)[1]
+            return value.span_of((value.minimum, value.maximum))[1]
         value = bound_value(value)
     if type(value) is float:
         return abs(value)

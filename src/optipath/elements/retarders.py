@@ -22,9 +22,9 @@ from optipath.materials.quantities import (
     RotationAngle,
     Wavelength,
 )
-from optipath.values.affine import real_number
 from optipath.values.curve_value import CurveValue
 from optipath.values.operands import Operation
+from optipath.values.precision import real_number
 from optipath.values.wavelength import Wavelength as WavelengthParameter
 
 if TYPE_CHECKING:

@@ -16,12 +16,12 @@ from optipath.kernels.dispersion import (
     index_of_square,
     sellmeier_square,
 )
-from optipath.values.affine import real_number
 from optipath.values.curve import Curve
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
+from optipath.values.precision import real_number
 from optipath.values.units import dimension_of, parse_quantity
 from optipath.values.use import Use
 from optipath.values.wavelength import LONGEST_FIRST, WAVELENGTH, too_long

@@ -233,8 +233,7 @@ class Material:
             path,
             names,
             unit=unit,
-            cures={"k": "give k=0.0 where nothing absorbs"},
-            signs={"k": _SIGN_OF_K},
+            cures={"k": "; or give k=0.0 where nothing absorbs"},
         )
         return cls.tabulated(
             table.wavelengths,

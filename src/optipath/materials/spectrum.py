@@ -177,8 +177,7 @@ class Spectrum(Curve):
         ValueFault
             With all that is wrong, and the lines.
         """
-        signs = {str(column): "such as 0 for what is noise"}
-        result = read_columns(path, [column], unit=unit, signs=signs)
+        result = read_columns(path, [column], unit=unit)
         values = result.columns[column]
         return cls.sampled(result.wavelengths, values, outside=outside, name=name or result.title)
 

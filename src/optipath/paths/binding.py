@@ -207,9 +207,12 @@ def _exchanged(value: Any, values: Mapping[str, Any]) -> Any:
         stored = result is value or not isinstance(result, Parameter)
         if stored or not isinstance(result, CurveValue):
             return result if stored else result.like(value)
-        offset = value.scale * result.offset + value.offset
-        dimension = value.offset_dimension or result.offset_dimension
-        return result.shaped(value.scale * result.scale, offset, dimension)
+        return changed(
+            result,
+            scale=value.scale * result.scale,
+            offset=value.scale * result.offset + value.offset,
+            offset_dimension=value.offset_dimension or result.offset_dimension,
+        )
     if isinstance(value, tuple):
         return tuple(_exchanged(one, values) for one in value)
     # What is made of several values, as a material and a chain of vertices are.

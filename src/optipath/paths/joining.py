@@ -18,7 +18,7 @@ from optipath.errors import (
     did_you_mean,
     shown,
 )
-from optipath.values.arrays import joint_shape, read_only, same
+from optipath.values.arrays import changed, joint_shape, read_only, same
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -251,9 +251,14 @@ def _sum(first: Any, second: Any) -> Any:
         and isinstance(second, Parameter)
         and (first.alone() == second.alone())
     ):
-        scale, offset = first.scale + second.scale, first.offset + second.offset
-        dimension = first.offset_dimension or second.offset_dimension
-        return first.shaped(scale, offset, dimension) if scale else offset
+        if not (scale := first.scale + second.scale):
+            return first.offset + second.offset
+        return changed(
+            first,
+            scale=scale,
+            offset=first.offset + second.offset,
+            offset_dimension=first.offset_dimension or second.offset_dimension,
+        )
     return first + second
 
 

@@ -15,7 +15,15 @@ from optipath.composer.validate import validate
 from optipath.composer.wiring import KEEPABLE, LOOPS
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
-from optipath.errors import ComposerError, ParameterError, PathError, needing, shown, unknown
+from optipath.errors import (
+    ComposerError,
+    ParameterError,
+    PathError,
+    check_named,
+    needing,
+    shown,
+    unknown,
+)
 from optipath.materials.named_materials import is_by_wavelength, is_curve
 from optipath.paths import editing
 from optipath.paths.binding import cases_left
@@ -25,7 +33,6 @@ from optipath.paths.place_choice import PlaceChoice, choice_faults, with_argumen
 from optipath.paths.reversed import reversed_graph
 from optipath.values.arrays import entries_of, same
 from optipath.values.cases import Case
-from optipath.values.messages import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import Fault, OptipathError, ParameterError
+from optipath.errors import Fault, OptipathError, ParameterError, no_value
 from optipath.materials.named_materials import of_complex, passed_too_late
 from optipath.values.agreement import first_faults
 from optipath.values.angles import TURN, warn_of_degrees
@@ -17,7 +17,6 @@ from optipath.values.arrays import array_of, broadcast_fault, joint_shape
 from optipath.values.curve import WavelengthRange
 from optipath.values.curve_value import computed_values
 from optipath.values.jax_values import is_traced
-from optipath.values.messages import no_value
 from optipath.values.operands import Ranges
 from optipath.values.parameters import THERE, Resolved, is_material, unknown_parameter
 from optipath.values.use import axes_for
@@ -164,12 +163,12 @@ class Inputs:
         result = Ranges({p.name: (p.minimum, p.maximum) for p in known})
         for use in self.uses:
             name = use.value.name
-            low, high = use.value.span_for(*use.domain.interval)
+            low, high = use.value.span_for(use.domain.interval)
             result[name] = max(result[name][0], low), min(result[name][1], high)
         for use in self.uses:
             if not use.value.is_signed:
                 value, (low, high) = use.value, use.domain.interval
-                least, most = value.span_of(*result[value.name])
+                least, most = value.span_of(result[value.name])
                 low, high = max(least, low), min(most, high)
                 # A turn back is by the negative.
                 result.update({value.quantity: (low, high), (-value).quantity: (-high, -low)})
@@ -241,4 +240,4 @@ class LargeAngles:
         """Warn of plain numbers that make angles beyond a whole turn."""
         for name, place in self._places.items():
             if name in arguments:
-                warn_of_degrees(f"{what} '{name}'", arguments[name], place)
+                warn_of_degrees(f"{what} '{name}'", arguments[name], place.placed)

@@ -8,7 +8,7 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Never
 
 from optipath.engines.choice import LARGE
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, check_named
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.mueller import Mueller
@@ -16,7 +16,6 @@ from optipath.plan.answers import by_place, only
 from optipath.plan.noise import matrix_noise_at, noise_at
 from optipath.plan.outlets import LaterWavelength
 from optipath.values.arrays import MOST_PATHS
-from optipath.values.messages import check_named
 from optipath.values.precision import whole_number
 
 if TYPE_CHECKING:

@@ -33,9 +33,8 @@ from optipath.surfaces.walk.layout import (
     STUCK,
     UP,
 )
-from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
-from optipath.values.precision import Numbers, whole_number
+from optipath.values.precision import Numbers, real_number, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable

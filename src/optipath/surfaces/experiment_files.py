@@ -13,8 +13,7 @@ from optipath.surfaces.reproduction import ANY_AZIMUTH, MEASURES, Experiment, Me
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.sample_files import described, load_sample, text_and_file
 from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
-from optipath.values.affine import real_number
-from optipath.values.precision import whole_number
+from optipath.values.precision import real_number, whole_number
 
 if TYPE_CHECKING:
     from os import PathLike

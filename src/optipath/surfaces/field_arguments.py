@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import Cure, Fault, MeshWarning, SurfaceError, did_you_mean, needing, shown
-from optipath.values.affine import real_number
 from optipath.values.angles import calls_up
 from optipath.values.arrays import as_argument
 from optipath.values.files import bytes_of, input_file
-from optipath.values.precision import Array, as_doubles, is_whole
+from optipath.values.precision import Array, as_doubles, is_whole, real_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,12 +12,10 @@ from optipath.errors import SurfaceError, shown
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.facet_model import alpha_of
 from optipath.surfaces.hemisphere.beam import SIDES, PixelMask
-from optipath.surfaces.hemisphere.measure import measure
+from optipath.surfaces.hemisphere.measure import measure, progress_faults
 from optipath.surfaces.smooth import smooth_difference, smooth_exit
 from optipath.surfaces.walk.beam import MOST_PHOTONS, beam_of
-from optipath.values.affine import real_number
-from optipath.values.messages import PHOTONS_REPORTED, no_function
-from optipath.values.precision import whole_number
+from optipath.values.precision import real_number, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -83,7 +81,7 @@ def decide(
     ('single-scattering', ())
     """
     faults = Faults(whole_number("photons", photons, 1, MOST_PHOTONS))
-    faults += no_function("progress", progress, PHOTONS_REPORTED)
+    faults += progress_faults(progress)
     if not 0.0 < (real_number(tolerance) or 0.0) < 1.0:
         faults.append(f"tolerance is {shown(tolerance)}; give one within 0 .. 1, such as 0.02")
     if side not in SIDES:

@@ -12,11 +12,11 @@ from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.height_field import HeightField
-from optipath.values.affine import real_number
 from optipath.values.arrays import same_fields
 from optipath.values.curve_value import CurveValue
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
+from optipath.values.precision import real_number
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError, closest, collecting, did_you_mean, listed, shown
+from optipath.errors import (
+    ParameterError,
+    closest,
+    collecting,
+    did_you_mean,
+    listed,
+    no_value,
+    shown,
+)
 from optipath.paths.path_graph import PathGraph
 from optipath.plan.inputs import LargeAngles
 from optipath.sweeps.coords import (
@@ -26,7 +34,6 @@ from optipath.values.angles import CosSin
 from optipath.values.arrays import as_argument, broadcast_fault, locked
 from optipath.values.columns import TextColumn
 from optipath.values.jax_values import check_known, known
-from optipath.values.messages import no_value
 from optipath.values.text import AxisValues, IdleValues, read_axis_text, read_entries
 from optipath.values.units import BASE_UNITS, dimension_of
 

@@ -8,10 +8,9 @@ import xarray as xr
 
 from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEEPABLE
-from optipath.errors import ParameterError, shown
+from optipath.errors import ParameterError, check_named, shown
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.memory import swept_in_memory
-from optipath.values.messages import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

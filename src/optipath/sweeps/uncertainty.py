@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.errors import OptipathError, ParameterError, collecting, shown, unknown
+from optipath.errors import OptipathError, ParameterError, check_named, collecting, shown, unknown
 from optipath.materials.material import Material
 from optipath.plan.answers import only
 from optipath.sweeps.axes import unknown_names
@@ -19,7 +19,6 @@ from optipath.sweeps.propagation import Propagation, notes_of_first_order
 from optipath.sweeps.uncertain_value import UncertainValue, read_correlation
 from optipath.values.arrays import array_of, broadcast_fault, enough_for, first_place, numbers_for
 from optipath.values.jax_values import check_known
-from optipath.values.messages import check_named
 from optipath.values.precision import is_whole, whole_number
 from optipath.values.units import dimension_of, format_quantity, parse_quantity
 from optipath.values.use import axes_for

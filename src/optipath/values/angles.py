@@ -5,12 +5,11 @@ from __future__ import annotations
 import inspect
 import math
 import warnings
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.errors import AngleWarning, Cure, OptipathError, ParameterError, UnitError, shown
-from optipath.values.affine import Affine, real_number
 from optipath.values.arrays import (
     MOST_AXES,
     Unchanging,
@@ -22,8 +21,12 @@ from optipath.values.arrays import (
     same,
 )
 from optipath.values.jax_values import is_jax, is_traced, namespace
-from optipath.values.precision import as_doubles, doubles, rounding_of
+from optipath.values.precision import as_doubles, doubles, real_number, rounding_of
 from optipath.values.units import dimension_of, format_quantity, in_unit, parse_quantity, unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 
 _APART = 1e-6
 _ANGLE = 8
@@ -175,7 +178,7 @@ _LOOKED_AT = 1000
 """At how many numbers of an array one looks; degrees are seen in any of them."""
 
 
-def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
+def warn_of_degrees(what: str, value: Any, place: Callable[[Any], Any] | None = None) -> None:
     """Warn of plain numbers beyond a whole turn that make angles beyond a turn, too.
 
     The sentence is the same for all values, so that Python shows it once a line.
@@ -192,7 +195,7 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> None:
     numbers = _plain_numbers(value)
     beyond = np.abs(numbers) > TURN
     if place is not None:
-        beyond &= np.abs(place.placed(numbers)) > TURN
+        beyond &= np.abs(place(numbers)) > TURN
     if np.any(beyond & np.isfinite(numbers)):
         warnings.warn(
             f"{what} is a plain number beyond 2 pi, in radians; write degrees as '48 deg', and "

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import csv
 import re
-from dataclasses import dataclass, field
+from contextlib import suppress
 from itertools import pairwise
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -29,10 +30,10 @@ from optipath.values.units import (
     unit_of,
     units_of,
 )
-from optipath.values.wavelength import LONGEST_FIRST, wavelength_of
+from optipath.values.wavelength import SPECTRAL, wavelength_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Callable, Collection, Mapping, Sequence
     from os import PathLike
     from pathlib import Path
 
@@ -121,13 +122,12 @@ def missing_unit(column: TextColumn, parameter: Parameter) -> str:
     )
 
 
-@dataclass(frozen=True)
-class CsvColumns:
+class CsvColumns(NamedTuple):
     """What stands in a file. Shapes wavelengths (n,); columns (n,). Units wavelengths in metres."""
 
     title: str
     wavelengths: np.ndarray[Any, Any]
-    columns: dict[str, np.ndarray[Any, Any]] = field(default_factory=dict)
+    columns: dict[str, np.ndarray[Any, Any]]
 
 
 def read_columns(
@@ -135,8 +135,7 @@ def read_columns(
     names: Sequence[str],
     *,
     unit: str = "",
-    cures: Mapping[str, str] | None = None,
-    signs: Mapping[str, str] | None = None,
+    cures: Mapping[str, str] = MappingProxyType({}),
 ) -> CsvColumns:
     """Return the wavelengths and some columns of a file.
 
@@ -153,24 +152,25 @@ def read_columns(
         _columns(file, lines[begin:end], (), ", ".join(["wavelength (nm)", *names]))
         for begin, end in pairwise([*begins, len(lines)])
     ]
-    result = CsvColumns(file.stem, np.empty(0))
-    faults: list[str] = []
+    others = [column.name for column in tables[0] if column.name.lower() not in _AXES]
+    faults = [
+        f"line {tables[0][0].header} names no column '{name}'"
+        f"{did_you_mean(name, others) if others else ''}{cures.get(name, '')}"
+        for name in names
+        if not any(_among(table, name) for table in tables)
+    ]
+    result = CsvColumns(file.stem, np.empty(0), {})
     for table in tables:
-        here = [name for name in names if _among(table, name)]
-        if table is tables[0]:
-            # What is in none is missed in the first.
-            here += [n for n in names if not any(_among(one, n) for one in tables)]
-        if not here:
-            continue
+        number = table[0].header
         with collecting(faults):
-            number = table[0].header
-            wavelengths = _wavelengths(table, number, unit)
-            columns = {n: _numbers(table, number, n, cures or {}, signs or {}) for n in here}
+            columns = {name: _numbers(table, name) for name in names if _among(table, name)}
+            if columns or table is tables[0]:
+                wavelengths = _wavelengths(table, number, unit)
             if twice := sorted(columns.keys() & result.columns):
                 raise ValueFault(
                     f"line {number} begins a second table of {listed(twice)}; keep one"
                 )
-            if result.columns and not np.array_equal(wavelengths, result.wavelengths):
+            if result.columns and columns and not np.array_equal(wavelengths, result.wavelengths):
                 raise ValueFault(
                     f"line {number} begins a second table, whose wavelengths are not those of the "
                     f"first; write all columns into lines of common wavelengths, or each table "
@@ -195,14 +195,9 @@ _AXES = {
 }
 """What the first column may be called, and what it is."""
 
-_SPECTRAL = {
-    "photon energy": ("eV", "meV", "keV"),
-    "wave number": ("1/cm", "cm^-1", "cm-1", "1/um", "1/mm", "1/m"),
-    "frequency": ("THz", "GHz", "PHz", "Hz"),
-}
 _SPELT = {"\u00b5m": "um", "\u03bcm": "um", "microns": "um", "micron": "um", "ev": "eV"}
 _SPELT |= dict.fromkeys(("\u00c5", "\u212b", "A", "angstroms", "Angstrom"), "angstrom")
-_BEHIND = {*UNITS, *_SPELT, *_SPECTRAL["photon energy"], *_SPECTRAL["wave number"]}
+_BEHIND = {*UNITS, *_SPELT, *SPECTRAL["photon energy"], *SPECTRAL["wave number"]}
 """Units that a name may end with."""
 
 _HEAD = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^][]*)\])?")
@@ -285,7 +280,7 @@ def _wavelengths(table: Sequence[TextColumn], number: int, unit: str) -> np.ndar
     (axis,) = axes
     unit = _SPELT.get(unit, unit)
     dimension = _AXES[axis.name.lower()]
-    known = [*_SPECTRAL.get(dimension, units_of(dimension))]
+    known = [*SPECTRAL.get(dimension, units_of(dimension))]
     own = axis.unit or unit
     if axis.unit and unit and axis.unit != unit:
         raise ValueFault(
@@ -299,16 +294,22 @@ def _wavelengths(table: Sequence[TextColumn], number: int, unit: str) -> np.ndar
             f"line {number}: '{axis.name}' has no unit; write '{axis.name} ({known[0]})', or give "
             f"unit='{known[0]}'"
         )
+    results = _each(axis._replace(unit=own).texts, axis.lines, _wavelength)
+    if doubt := unit_doubted(results, "" if any(have_units) else own):
+        raise ValueFault(doubt)
+    return np.array(results)
+
+
+def _each(texts: Sequence[str], lines: Sequence[int], read: Callable[[str], float]) -> list[float]:
+    """Return the number of each text, or what is wrong with those of which lines."""
     results: list[float] = []
     faults: list[str] = []
-    for line, cell in zip(axis.lines, axis.cells, strict=True):
+    for line, text in zip(lines, texts, strict=True):
         with collecting(faults, about=f"line {line}"):
-            results.append(_wavelength(cell if unit_of(cell) else f"{cell} {own}"))
-    if not faults:
-        faults = _order_faults(axis.lines, results, "" if any(have_units) else own)
+            results.append(read(text))
     if faults:
         raise ValueFault(*faults)
-    return np.array(results)
+    return results
 
 
 def _wavelength(text: str) -> float:
@@ -319,67 +320,21 @@ def _wavelength(text: str) -> float:
     return float(number)
 
 
-def _numbers(
-    table: Sequence[TextColumn],
-    number: int,
-    name: str,
-    cures: Mapping[str, str],
-    signs: Mapping[str, str],
-) -> np.ndarray[Any, Any]:
-    """Return the numbers of a column, none of them negative."""
-    columns = _among(table, name)
-    if len(columns) != 1:
-        others = [column.name for column in table if column.name.lower() not in _AXES]
-        cure = f"; or {cures[name]}" if name in cures else ""
-        why = f"names {len(columns)} columns '{name}'; keep one"
-        if not columns:
-            why = f"names no column '{name}'{did_you_mean(name, others) if others else ''}{cure}"
-        raise ValueFault(f"line {number} {why}")
-    results: list[float] = []
-    faults: list[str] = []
-    for line, cell in zip(columns[0].lines, columns[0].cells, strict=True):
-        with collecting(faults, about=f"line {line}"):
-            results.append(_number(name, cell, signs))
-    if faults:
-        raise ValueFault(*faults)
-    return np.array(results)
+def _numbers(table: Sequence[TextColumn], name: str) -> np.ndarray[Any, Any]:
+    """Return the numbers of a column."""
+    column, *others = _among(table, name)
+    if others:
+        raise ValueFault(f"line {column.header} names '{name}' twice; keep one column")
 
-
-def _number(name: str, cell: str, signs: Mapping[str, str]) -> float:
-    try:
+    def number(cell: str) -> float:
         # Python reads 1_5 as 15.
-        result = float(cell if cell.isascii() and "_" not in cell else "")
-    except ValueError:
-        wanted = f"is {shown(cell)}, which is no number" if cell else "is empty"
-        raise ValueFault(f"{name} {wanted}; write one, such as 1.5") from None
-    if not np.isfinite(result):
-        raise ValueFault(f"{name} is {cell}; write a number, or leave it out")
-    if result < 0.0:
-        other = f", {signs[name]}" if name in signs else ""
-        raise ValueFault(f"{name} is {cell}; write none below 0{other}")
-    return result
+        with suppress(ValueError):
+            result = float(cell if cell.isascii() and "_" not in cell else "")
+            if np.isfinite(result):
+                return result
+        raise ValueFault(f"{name} is {shown(cell)}, which is no number; write one, such as 1.5")
 
-
-def _order_faults(lines: Sequence[int], wavelengths: list[float], unit: str) -> list[str]:
-    """Return what is wrong with wavelengths that do not rise or fall, or are none of light."""
-    least = min(wavelengths)
-    faults = []
-    if least > LONGEST_FIRST:
-        faults.append(
-            f"the least wavelength is {least:g} metres, which is no wavelength of light; the "
-            f"unit is most likely another one"
-        )
-    elif doubt := unit_doubted(wavelengths, unit):
-        faults.append(doubt)
-    steps = np.sign(np.diff(wavelengths))
-    wrong = (steps == 0.0) | (steps != steps[:1])
-    if np.any(wrong):
-        line = lines[int(np.argmax(wrong)) + 1]
-        faults.append(
-            f"line {line}: its wavelength does not go on from those before; give each once, "
-            f"rising or falling"
-        )
-    return faults
+    return np.array(_each(column.cells, column.lines, number))
 
 
 _DOUBTS = {"um": (100e-6, np.inf, "nm"), "nm": (0.0, 10e-9, "um")}

@@ -20,7 +20,7 @@ from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand
 from optipath.values.parameters import THERE, Parameter, Resolved
-from optipath.values.units import dimension_of, format_quantity, with_article
+from optipath.values.units import dimension_of, displayed, with_article
 from optipath.values.wavelength import WAVELENGTH, Wavelength, read_within
 
 if TYPE_CHECKING:
@@ -97,18 +97,10 @@ class CurveValue(Parameter):
         )
         return _of(self.curve, self.place, depends_on).like(self)
 
-    def argument(self, place: int, arguments: Mapping[str, Resolved]) -> Any:
-        """Return the numbers of one of those that it is computed of."""
-        return _number(self.depends_on[place], arguments)
-
-    def check_place(self, owner: str, domain: Domain) -> None:
-        super().check_place(owner, domain)
-        nowhere = not self.offset and self.scale and self.curve.is_nowhere_0(self.place)
-        if nowhere and takes_0_alone(domain):
-            raise ValueFault(
-                f"{self.formula_of(self.spoken)} is 0 at no wavelength, and {owner} takes "
-                f"{domain.described()}"
-            )
+    @property
+    def is_nowhere_0(self) -> bool:
+        """Whether it is known to be above 0, or below, at all wavelengths."""
+        return not self.offset and self.scale != 0.0 and self.curve.is_nowhere_0(self.place)
 
     @property
     def plain_numbers(self) -> Any:
@@ -241,20 +233,14 @@ def check_computed(
         bad = ~np.asarray(domain.allows(np.asarray(placed)))
         if not np.any(bad):
             raise
-        result = float(np.asarray(placed)[bad].ravel()[0])
-        known = {**_default_of(value, arguments or {}), **(arguments or {})}
-        if faults := coefficient_faults(value, known):
-            raise ValueFault(*faults) from fault
-        at = _wavelength_text(value, bad, known)
-        place, cure = other_numbers(value, bad, known)
-        what = f"{value.formula_of(value.spoken)}{at}"
-        is_what = f"is {result:.6g}" if np.isfinite(result) else "has no value"
+        known = {**_defaults(value.arguments), **(arguments or {})}
+        if misfits := value.curve.misfits(value.depends_on[1:], known):
+            raise ValueFault(*misfits) from fault
+        what, cure = _no_result(value, placed, bad, known)
         wanted = f", and {owner} takes {domain.described()}" if owner else ""
-        if takes_0_alone(domain):
-            raise ValueFault(f"{what} {is_what}{wanted}") from fault
-        reason = value.curve.unreal_of(value.place)
-        why = f" ({reason})" if reason else ""
-        raise ValueFault(f"{what} {is_what}{place}{why}{wanted}; {cure}") from fault
+        if not takes_0_alone(domain):
+            wanted += f"; {cure}"
+        raise ValueFault(f"{what}{wanted}") from fault
 
 
 def takes_0_alone(domain: Domain) -> bool:
@@ -262,24 +248,35 @@ def takes_0_alone(domain: Domain) -> bool:
     return domain.interval == (0.0, 0.0)
 
 
-def _default_of(value: Any, arguments: Mapping[str, Resolved]) -> dict[str, Resolved]:
-    return {
-        p.name: p.resolve(p.default)
-        for p in value.arguments
-        if p.name not in arguments and p.default is not None
-    }
+def _no_result(
+    value: Any, numbers: Any, bad: Any, known: Mapping[str, Resolved]
+) -> tuple[str, str]:
+    """Say where a curve comes to what is not allowed, and what else to give."""
+    wavelength, *others = [_number_at(one, bad, known) for one in value.depends_on]
+    at = "" if wavelength is None else f" at {displayed(wavelength, WAVELENGTH.unit)}"
+    result = float(np.asarray(numbers)[bad].ravel()[0])
+    is_what = f"is {result:.6g}" if np.isfinite(result) else "has no value"
+    coefficients = [
+        f"{one.formula} is {number:.6g}"
+        for one, number in zip(value.depends_on[1:], others, strict=True)
+        if isinstance(one, Parameter) and number is not None
+    ]
+    cure, place = "give another wavelength", ""
+    if coefficients:
+        cure = f"give other coefficients ({', '.join(coefficients)}), or another wavelength"
+        which = place_text(bad.shape, int(np.argmax(bad))).strip()
+        place = f" ({which}, of {bad.size} paths)" if bad.size > 1 else ""
+    reason = value.curve.unreal_of(value.place)
+    why = f" ({reason})" if reason else ""
+    return f"{value.formula_of(value.spoken)}{at} {is_what}{place}{why}", cure
 
 
-def _wavelength_text(value: Any, bad: Any, known: Mapping[str, Resolved]) -> str:
-    """Return the first wavelength at which a value is not allowed, as a sentence goes on."""
-    wavelength = value.depends_on[0]
-    if isinstance(wavelength, Parameter) and wavelength.name not in known:
-        return ""
-    number = value.argument(0, known)
-    if is_traced(number):
-        return ""
-    first = np.broadcast_to(number, bad.shape)[bad].ravel()[0]
-    return f" at {format_quantity(float(f'{first:.10g}'), WAVELENGTH.unit)}"
+def _number_at(one: Any, bad: Any, known: Mapping[str, Resolved]) -> float | None:
+    """Return the first number of one argument that a fault is of; None where it is not known."""
+    if isinstance(one, Parameter) and one.name not in known:
+        return None
+    number = _number(one, known)
+    return None if is_traced(number) else float(np.broadcast_to(number, bad.shape)[bad].flat[0])
 
 
 def computed_values(
@@ -306,26 +303,6 @@ def parameters_among(values: Iterable[Any]) -> list[Parameter]:
         if isinstance(value, CurveValue):
             results += value.arguments
     return results
-
-
-def coefficient_faults(value: Any, known: Mapping[str, Resolved]) -> list[str]:
-    """Say which coefficients of a curve do not fit to each other, whatever the wavelength."""
-    return list(value.curve.misfits(value.depends_on[1:], known))
-
-
-def other_numbers(value: Any, bad: Any, known: Mapping[str, Resolved]) -> tuple[str, str]:
-    """Return where a curve comes to what is not allowed, and what else to give."""
-    messages = []
-    for place, one in enumerate(value.depends_on[1:], 1):
-        if isinstance(one, Parameter) and not is_traced(number := value.argument(place, known)):
-            first = np.broadcast_to(number, bad.shape)[bad].ravel()[0]
-            messages.append(f"{one.formula} is {first:.6g}")
-    if not messages:
-        return "", "give another wavelength"
-    at = place_text(bad.shape, int(np.argmax(bad)))
-    where = f" ({at.strip()}, of {bad.size} paths)" if bad.size > 1 else ""
-    cure = f"give other coefficients ({', '.join(messages)}), or another wavelength"
-    return where, cure
 
 
 def curve_at(curve: Curve, wavelength: Any = None) -> tuple[Any, ...]:

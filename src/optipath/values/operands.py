@@ -151,7 +151,7 @@ class Operand:
         if self.part not in ("value", "real") or self.tail:
             return -np.inf, np.inf
         value: Parameter = self.value
-        return value.span_of(value.minimum, value.maximum)
+        return value.span_of((value.minimum, value.maximum))
 
     def negated(self) -> Operand:
         """Return the same part of the value with the other sign."""

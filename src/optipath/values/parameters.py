@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+import operator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Self
 
 import numpy as np
 
@@ -21,11 +23,18 @@ from optipath.errors import (
     shown,
     there_are,
 )
-from optipath.values.affine import Affine
 from optipath.values.angles import TURN, CosSin, range_cure, refused, warn_of_degrees
-from optipath.values.arrays import array_of, as_argument, first_place, numbers_for, read_only, same
-from optipath.values.jax_values import is_traced, namespace
-from optipath.values.precision import doubles, within
+from optipath.values.arrays import (
+    array_of,
+    as_argument,
+    changed,
+    first_place,
+    numbers_for,
+    read_only,
+    same,
+)
+from optipath.values.jax_values import is_jax, is_traced, namespace
+from optipath.values.precision import affine, doubles, real_number, within
 from optipath.values.units import (
     INFINITE,
     USUAL_UNITS,
@@ -39,10 +48,20 @@ from optipath.values.units import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 
     import numpy.typing as npt
 
+
+PURE = "pure number"
+_OF_NUMPY: dict[Any, Callable[..., Any]] = {
+    np.add: operator.add,
+    np.subtract: operator.sub,
+    np.multiply: operator.mul,
+    np.true_divide: operator.truediv,
+    np.negative: operator.neg,
+    np.positive: operator.pos,
+}
 
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
@@ -51,7 +70,7 @@ _ASIDE = {"scale", "offset", "offset_dimension", "is_material"}
 
 
 @dataclass(frozen=True, eq=False)
-class Parameter(Affine):
+class Parameter:
     """A named value of a path that is given when it is traced.
 
     Used in place of a value of any element; ``2 * parameter + 0.1`` stands for a multiple of it
@@ -117,33 +136,84 @@ class Parameter(Affine):
     is_material: bool = field(default=False, init=False, repr=False)
 
     def __post_init__(self) -> None:
-        checked_name(self.name)
-        vars(self).update(read_specification(self))
-        check_types(self)
-        scale, offset, dimension = self.checked_shape()
-        vars(self).update(scale=scale, offset=offset, offset_dimension=dimension)
-        low, high = [limit_of(self.name, end) for end in (self.minimum, self.maximum)]
-        if not low <= high:
+        if not isinstance(self.name, str) or not self.name.isidentifier():
             raise ParameterError(
-                f"parameter '{self.name}' has the range {self.text(low)} .. "
-                f"{self.text(high)}; begin with the lower end"
+                f"parameter name {shown(self.name)} must be letters, digits and underscores, "
+                f"not starting with a digit"
             )
-        vars(self).update(minimum=low, maximum=high)
-        vars(self).update(words={w: self._word(w, v) for w, v in self.words.items()})
+        for field_name, (kind, described) in _KINDS.items():
+            if not isinstance(value := getattr(self, field_name), kind):
+                raise ParameterError(
+                    f"{field_name} of parameter '{self.name}' must be {described}, "
+                    f"not {shown(value)}"
+                )
+        if isinstance(self.unit, str) and not self.unit:
+            numbers = [self.default, self.minimum, self.maximum, *self.words.values()]
+            vars(self).update(unit=_first_unit(numbers))
+        # Whoever binds a value looks at it where it stands.
+        warns = dimension_of(self.unit) == "angle" and not self.bound
+        if warns:
+            warn_of_limits(self)
+        self._read_limits_and_words()
+        self._read_shape()
         if isinstance(self.default, CosSin):
             raise ParameterError(
                 f"parameter '{self.name}' cannot keep a cosine and a sine; give them when the "
                 f"plan runs, or give an angle"
             )
         if (argument := self.default) is not None:
-            default = read_only(self._as_number(argument), (low, high), widened=False)
+            limits = self.minimum, self.maximum
+            default = read_only(self._as_number(argument), limits, widened=False)
             vars(self).update(default=default, is_material=is_material(argument))
             self.resolve(default)
-            # Whoever binds a value looks at it where it stands.
-            if dimension_of(self.unit) == "angle" and not self.bound:
+            if warns:
                 warn_of_degrees(f"parameter '{self.name}'", argument)
         elif self.bound:
             raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
+
+    def _read_limits_and_words(self) -> None:
+        """Put numbers in place of texts."""
+        parse = partial(parse_quantity, dimension=dimension_of(self.unit))
+        faults: list[str] = []
+        numbers = []
+        for what, number in _limits_and_words(self):
+            with collecting(faults, ParameterError):
+                numbers.append(numbers_for(what, number, parse, ParameterError))
+        if faults:
+            raise ParameterError(*faults)
+        low, high, *words = numbers
+        low, high = self._limit(low), self._limit(high)
+        if not low <= high:
+            raise ParameterError(
+                f"parameter '{self.name}' has the range {self.text(low)} .. "
+                f"{self.text(high)}; begin with the lower end"
+            )
+        vars(self).update(minimum=low, maximum=high)
+        read = zip(self.words, words, strict=True)
+        vars(self).update(words={word: self._word(word, value) for word, value in read})
+
+    def _limit(self, value: Any) -> float:
+        if type(value) is float:
+            return value
+        what = f"the range of parameter '{self.name}'"
+        array = array_of(what, value, ParameterError)
+        if array.ndim or array.dtype.kind not in "iuf":
+            raise ParameterError(f"{what} must be numbers, not {shown(value)}")
+        return float(array)
+
+    def _read_shape(self) -> None:
+        """Put numbers in place of scale and offset, and the dimension that a text names."""
+        dimension, argument = self.offset_dimension, self.offset
+        if isinstance(argument, str):
+            argument, dimension = self._parsed(argument)
+        scale, offset = real_number(self.scale), real_number(argument)
+        if not scale or offset is None:
+            raise ParameterError(
+                f"parameter '{self.name}' can stand as scale * {self.name} + offset with finite "
+                f"real numbers and a scale other than 0, not with scale {shown(self.scale)} and "
+                f"offset {shown(self.offset)}"
+            )
+        vars(self).update(scale=scale, offset=offset, offset_dimension=dimension)
 
     def _word(self, word: Any, value: Any) -> float:
         if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
@@ -269,9 +339,12 @@ class Parameter(Affine):
             dimension = dimension_of(self.unit)
             raise ParameterError(unknown_word(self.name, text, self.all_words, dimension))
         try:
-            return parse_quantity(text, dimension_of(self.unit), default_unit)
+            return self._quantity(text, default_unit)
         except UnitError as error:
             raise UnitError(f"parameter '{self.name}': {error}") from None
+
+    def _quantity(self, text: str, default_unit: str) -> Any:
+        return parse_quantity(text, dimension_of(self.unit), default_unit)
 
     def text(self, value: Any) -> str:
         """Write a value as files and the command line give it."""
@@ -331,6 +404,158 @@ class Parameter(Affine):
         reason = f"parameter '{self.name}' is {text}{first_place(bad)}, outside its range"
         raise ParameterError(Fault(reason, range_cure(format_range(*limits, unit), hint)))
 
+    @property
+    def is_signed(self) -> bool:
+        """Whether it stands for the value itself or its negative."""
+        return self.offset == 0.0 and self.scale in (1.0, -1.0)
+
+    @property
+    def is_negative(self) -> bool:
+        """Whether it stands for the negative of the value."""
+        return self.offset == 0.0 and self.scale == -1.0
+
+    @property
+    def quantity(self) -> Hashable:
+        """What is told apart where it stands: by the name, or a multiple with an offset."""
+        return self.name if self.is_signed else (self.name, self.scale, self.offset)
+
+    @property
+    def formula(self) -> str:
+        """What it stands for, as people write it: ``d``, ``-d`` or ``2 * d + 10 deg``."""
+        return self.formula_of(self.name)
+
+    def formula_of(self, name: str) -> str:
+        """Return what it stands for, the value being called by a name."""
+        if self.scale in (1.0, -1.0):
+            multiple = f"{'-' * (self.scale < 0.0)}{name}"
+        else:
+            multiple = f"{format_quantity(self.scale, '')} * {name}"
+        if not self.offset:
+            return multiple
+        sign = "-" if self.offset < 0.0 else "+"
+        return f"{multiple} {sign} {format_quantity(abs(self.offset), self.unit)}"
+
+    @property
+    def spoken(self) -> str:
+        """What formulas in sentences call the value."""
+        return self.name
+
+    @property
+    def called(self) -> str:
+        """What sentences call the value."""
+        return f"parameter '{self.name}'"
+
+    @property
+    def plain_numbers(self) -> Any:
+        """What it is known to be, of which degrees are told from radians; None for nothing."""
+        return self.default
+
+    def alone(self) -> Self:
+        """Return the value itself."""
+        is_alone = self.scale == 1.0 and not self.offset and not self.offset_dimension
+        return self if is_alone else changed(self, scale=1.0, offset=0.0, offset_dimension="")
+
+    def like(self, other: Parameter) -> Self:
+        """Return what stands for this value as another does for its own."""
+        names = ("scale", "offset", "offset_dimension")
+        return changed(self, **{name: getattr(other, name) for name in names})
+
+    def placed(self, numbers: Any) -> Any:
+        """Return what stands in its place where the value is some numbers."""
+        return affine(self.scale, self.offset, numbers)
+
+    def span_of(self, limits: tuple[float, float]) -> tuple[float, float]:
+        """Return the limits of what stands in its place, by those of the value."""
+        low, high = map(self.placed, limits)
+        return min(low, high), max(low, high)
+
+    def span_for(self, limits: tuple[float, float]) -> tuple[float, float]:
+        """Return the limits of the value, by those of what stands in its place."""
+        low, high = ((end - self.offset) / self.scale for end in limits)
+        return min(low, high), max(low, high)
+
+    def _parsed(self, text: str) -> tuple[Any, str]:
+        """Return the number that a text with a unit is as an offset, and its dimension."""
+        own = dimension_of(self.unit) or self.offset_dimension
+        for dimension in [] if own else USUAL_UNITS:
+            with suppress(UnitError):
+                return parse_quantity(text, dimension), dimension or PURE
+        dimension = own.removeprefix(PURE) if own else "angle"
+        return parse_quantity(text, dimension), dimension or PURE
+
+    def __neg__(self) -> Self:
+        return changed(self, scale=-self.scale, offset=0.0 - self.offset)
+
+    def __pos__(self) -> Self:
+        return self
+
+    def __mul__(self, other: Any) -> Self:
+        if not (factor := real_number(other)):
+            self._refuse(f"multiplied by {_named(other)}", other)
+        return self._made(factor * self.scale, factor * self.offset)
+
+    def __truediv__(self, other: Any) -> Self:
+        if not (divisor := real_number(other)):
+            self._refuse(f"divided by {_named(other)}", other)
+        return self._made(self.scale / divisor, self.offset / divisor)
+
+    def __add__(self, other: Any) -> Self:
+        return self._shifted(other, 1.0)
+
+    def __sub__(self, other: Any) -> Self:
+        return self._shifted(other, -1.0)
+
+    def __rsub__(self, other: Any) -> Self:
+        return (-self)._shifted(other, 1.0)
+
+    __rmul__, __radd__ = __mul__, __add__
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
+        """Do arithmetic with a number of NumPy, and refuse any other function."""
+        if ufunc in (np.equal, np.not_equal):
+            return ufunc is np.not_equal
+        numbers = [one if isinstance(one, Parameter) else real_number(one) for one in inputs]
+        if ufunc not in _OF_NUMPY or method != "__call__" or options or None in numbers:
+            self._refuse(f"given to numpy.{ufunc.__name__}")
+        return _OF_NUMPY[ufunc](*numbers)
+
+    def _not_affine(self, *_: Any) -> NoReturn:
+        self._refuse("used so")
+
+    __pow__ = __rpow__ = __rtruediv__ = __mod__ = __abs__ = __float__ = _not_affine
+    __lt__ = __le__ = __gt__ = __ge__ = _not_affine
+
+    def _shifted(self, other: Any, sign: float) -> Self:
+        number, dimension = other, self.offset_dimension
+        if isinstance(other, str):
+            number, dimension = self._parsed(other)
+        if (number := real_number(number)) is None:
+            self._refuse(f"added to {_named(other)} or subtracted from it", other)
+        return self._made(self.scale, self.offset + sign * number, dimension)
+
+    def _made(self, scale: float, offset: float, dimension: str | None = None) -> Self:
+        """Return another multiple with another offset, if floats hold these."""
+        if scale == 0.0 or not math.isfinite(scale) or not math.isfinite(offset):
+            raise ParameterError(
+                f"parameter '{self.name}' would stand as {scale} * {self.name} + {offset}, which "
+                f"floats cannot hold; give numbers nearer to 1"
+            )
+        dimension = self.offset_dimension if dimension is None else dimension
+        return changed(self, scale=scale, offset=offset, offset_dimension=dimension)
+
+    def _refuse(self, done: str, other: Any = None) -> NoReturn:
+        if isinstance(other, (complex, np.complexfloating)):
+            raise ParameterError(
+                f"{self.called} cannot be {done}; for an index n + ik of which either is "
+                f"a parameter, write op.Material(n, k), and for any other complex number one "
+                f"parameter that is given it whole"
+            )
+        raise ParameterError(
+            f"{self.called} cannot be {done}: it may stand as a multiple with an offset, "
+            f"such as 2 * {self.spoken} + 0.1, and as nothing else; compute other values in NumPy "
+            f"and give them as the parameter, or write an element of your own"
+        )
+
 
 _KINDS: dict[str, tuple[type, str]] = {
     **dict.fromkeys(("help", "offset_dimension"), (str, "a text")),
@@ -339,88 +564,17 @@ _KINDS: dict[str, tuple[type, str]] = {
 }
 
 
-def check_types(parameter: Any) -> None:
-    """Check what a parameter is specified by that is no number."""
-    for name, (kind, described) in _KINDS.items():
-        if not isinstance(value := getattr(parameter, name), kind):
-            raise ParameterError(
-                f"{name} of parameter '{parameter.name}' must be {described}, not {shown(value)}"
-            )
+def _limits_and_words(parameter: Parameter) -> Iterator[tuple[str, Any]]:
+    """Yield the limits and the words of a parameter: what sentences call each, and its number."""
+    of = f"of parameter '{parameter.name}'"
+    yield from ((f"the {end} {of}", getattr(parameter, end)) for end in ("minimum", "maximum"))
+    yield from ((f"the word '{word}' {of}", value) for word, value in parameter.words.items())
 
 
-def checked_name(name: Any) -> str:
-    """Return the name of a parameter."""
-    if isinstance(name, str) and name.isidentifier():
-        return name
-    raise ParameterError(
-        f"parameter name {shown(name)} must be letters, digits and underscores, "
-        f"not starting with a digit"
-    )
-
-
-def limit_of(name: str, value: Any) -> float:
-    """Return an end of the range of a parameter as a number."""
-    if type(value) is float:
-        return value
-    what = f"the range of parameter '{name}'"
-    array = array_of(what, value, ParameterError)
-    if array.ndim or array.dtype.kind not in "iuf":
-        raise ParameterError(f"{what} must be numbers, not {shown(value)}")
-    return float(array)
-
-
-def read_specification(parameter: Any) -> dict[str, Any]:
-    """Return the unit, the limits and the words of a parameter, numbers in place of texts.
-
-    The unit is that of the first text that has one, where none is given; defaults stay texts.
-    """
-    name, words = parameter.name, parameter.words
-    named = words if isinstance(words, dict) else {}
-    limits = {"minimum": parameter.minimum, "maximum": parameter.maximum}
-    unit = parameter.unit
-    if isinstance(unit, str) and not unit:
-        unit = _first_unit([parameter.default, *limits.values(), *named.values()])
-    dimension = dimension_of(unit)
-    faults: list[str] = []
-    places: dict[str, tuple[Any, str]] = {
-        f"the {end} of parameter '{name}'": (limits, end)
-        for end, limit in limits.items()
-        if type(limit) is not float
-    }
-    if named:
-        places |= {f"the word '{word}' of parameter '{name}'": (words, word) for word in named}
-    results = {"unit": unit, **limits, "words": {**named} if named else words}
-    parse = partial(parse_quantity, dimension=dimension)
-    for what, (several, key) in places.items():
-        with collecting(faults, ParameterError):
-            number = numbers_for(what, several[key], parse, ParameterError)
-            (results if several is limits else results["words"])[key] = number
-    if faults:
-        raise ParameterError(*faults)
-    # Whoever binds a value looks at it where it stands.
-    if dimension == "angle" and parameter.bound is not True:
-        _warn_of_limits(name, **limits, words=named)
-    return results
-
-
-def warn_where_it_stands(parameter: Any) -> None:
-    """Warn of limits and words of a parameter that is an angle since it stands for one."""
-    limits = parameter.minimum, parameter.maximum
-    _warn_of_limits(parameter.name, *limits, parameter.words, parameter)
-
-
-def _warn_of_limits(
-    name: str,
-    minimum: Any,
-    maximum: Any,
-    words: Mapping[str, Any],
-    place: Affine | None = None,
-) -> None:
+def warn_of_limits(parameter: Parameter, place: Callable[[Any], Any] | None = None) -> None:
     """Warn of plain numbers beyond a whole turn among the limits and words of an angle."""
-    warn_of_degrees(f"the minimum of parameter '{name}'", minimum, place)
-    warn_of_degrees(f"the maximum of parameter '{name}'", maximum, place)
-    for word, number in words.items():
-        warn_of_degrees(f"the word '{word}' of parameter '{name}'", number, place)
+    for what, number in _limits_and_words(parameter):
+        warn_of_degrees(what, number, place)
 
 
 def is_material(argument: Any) -> bool:
@@ -508,6 +662,12 @@ AXES: Mapping[str, float] = MappingProxyType(
     }
 )
 """The angles of axes that have names, from x towards y."""
+
+
+def _named(other: Any) -> str:
+    if isinstance(other, Parameter):
+        return other.called
+    return "a value of JAX" if is_jax(other) else shown(other)
 
 
 def label_of(what: str, name: Any, usual: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from contextlib import suppress
-from numbers import Integral
+from numbers import Integral, Real
 from operator import index
 from typing import Any
 
@@ -179,6 +179,23 @@ def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float
             summed = np.where(near, limit, result)
             result = summed if np.ndim(result) else type(result)(summed)
     return result
+
+
+def real_number(number: Any) -> float | None:
+    """Return a finite real number as a float; None for what is none.
+
+    >>> real_number(2), real_number("2"), real_number(math.inf)
+    (2.0, None, None)
+    """
+    if isinstance(number, np.ndarray) and not number.ndim and number.dtype.kind in "iuf":
+        number = number[()]
+    if not isinstance(number, Real) or isinstance(number, (bool, np.bool_, np.timedelta64)):
+        return None
+    try:
+        result = float(number)
+    except (OverflowError, ValueError):
+        return None
+    return result if math.isfinite(result) else None
 
 
 def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:

@@ -15,18 +15,20 @@ import numpy as np
 from optipath.errors import OptipathError, ParameterError, ValueFault, collecting, having
 from optipath.values.angles import warn_of_degrees
 from optipath.values.arrays import as_argument
-from optipath.values.curve_value import CurveValue, check_computed
+from optipath.values.curve_value import CurveValue, check_computed, takes_0_alone
 from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import (
     AXES,
+    PURE,
     THERE,
     Parameter,
     unknown_word,
-    warn_where_it_stands,
+    warn_of_limits,
     word_meant,
 )
-from optipath.values.units import dimension_of
+from optipath.values.precision import affine
+from optipath.values.units import dimension_of, with_article
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -117,7 +119,7 @@ class Use:
                 f"parameter '{name}' is in {unit}, but {self.owner} takes "
                 f"{self.domain.described()}; change its unit or where it is used"
             )
-        self.value.check_place(self.owner, self.domain)
+        self._check_multiple()
         default = self.value.default
         if self.value.is_material:
             self.refuse_material(default)
@@ -126,6 +128,25 @@ class Use:
             self.check_arguments(default)
         elif default is not None:
             self.check_arguments(*self.value.resolve(default))
+
+    def _check_multiple(self) -> None:
+        """Check that a multiple with an offset can stand here."""
+        value, domain, dimension = self.value, self.domain, self.value.offset_dimension
+        if domain.tail and not value.is_signed:
+            raise ValueFault(
+                f"{self.owner} is {value.formula}, but takes several numbers that belong together; "
+                f"compute them in NumPy and give them as the parameter '{value.name}'"
+            )
+        if dimension and dimension != (domain.dimension or PURE):
+            raise ValueFault(
+                f"the offset of parameter '{value.name}' is {with_article(dimension)}, but "
+                f"{self.owner} takes {domain.described()}; change its unit or where it is used"
+            )
+        if isinstance(value, CurveValue) and value.is_nowhere_0 and takes_0_alone(domain):
+            raise ValueFault(
+                f"{value.formula_of(value.spoken)} is 0 at no wavelength, and {self.owner} takes "
+                f"{domain.described()}"
+            )
 
     def refuse_material(self, material: Any) -> None:
         """Raise where a `Material` is given for what is no index of refraction."""
@@ -152,7 +173,7 @@ class Use:
             what = f"{self.owner}, as {value.formula}" if negative else self.owner
             self.domain.check(f"parameter '{value.name}' (at {what})", placed)
             return
-        placed = value.placed(numbers, self.domain.interval)
+        placed = affine(value.scale, value.offset, numbers, self.domain.interval)
         if not np.all(present):
             placed = np.where(present, placed, 0.0)
         what = f"parameter '{value.name}' (at {self.owner}, as {value.formula})"
@@ -226,14 +247,14 @@ def stored_value(owner: str, value: Any, domain: Domain) -> Any:
         # Of a parameter with a unit, it has been told when it was made.
         without = isinstance(value, Parameter) and (value.bound or not value.unit)
         if without:
-            warn_of_degrees(owner, value.plain_numbers, value)
+            warn_of_degrees(owner, value.plain_numbers, value.placed)
         elif not isinstance(value, Parameter):
             warn_of_degrees(owner, value)
         if isinstance(value, Parameter) and not value.offset_dimension:
             warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
     if isinstance(value, Parameter):
         if not value.unit and domain.dimension == "angle" and not _is_checked_later.get():
-            warn_where_it_stands(value)
+            warn_of_limits(value, value.placed)
         return in_unit_of(value, domain)
     return domain.kept(domain.read(owner, value))
 

@@ -5,12 +5,18 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from optipath.errors import ParameterError, UnitError
 from optipath.values.domains import Domain
 from optipath.values.parameters import Parameter
-from optipath.values.units import NUMBER, UNITS, format_quantity, unit_of
+from optipath.values.units import NUMBER, UNITS, unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 
 LONGEST = 0.1
 """Above this many metres, a number is no wavelength: materials are known up to microwaves."""
@@ -26,8 +32,8 @@ def too_long(wavelength: float) -> str:
     '188 metres, which is no wavelength of light'
     """
     return (
-        f"{wavelength:g} metres, which is no wavelength of light; multiply those in nanometres by "
-        f"1e-9, and those in micrometres by 1e-6"
+        f"{wavelength:g} metres, which is no wavelength of light; for nanometres write "
+        f"'{wavelength:g} nm', and for micrometres '{wavelength:g} um'"
     )
 
 
@@ -39,24 +45,13 @@ class WavelengthDomain(Domain):
     """
 
     def parse(self, text: str) -> Any:
-        read = wavelength_of(text)
-        if read is not None:
-            return read
-        try:
-            return super().parse(text)
-        except UnitError as fault:
-            raise with_other_units(fault, text) from None
+        return _read(text, super().parse)
 
     def described(self) -> str:
         return "a wavelength above 0, in metres or as a text such as '516 nm'"
 
 
 WAVELENGTH = WavelengthDomain("wavelength", "length", minimum=5e-324)
-
-
-_MICROMETRES, _MILLIMETRES = 1e-5, 1e-3
-_MOST_NANOMETRES = 1e6
-_SMALL, _SMALLER = ("nanometres", "nm"), ("micrometres", "um")
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,15 +91,13 @@ class Wavelength(Parameter):
     help: str = "wavelength in vacuum"
 
     def __post_init__(self) -> None:
-        if all(map(falls_with_wavelength, ends := (self.minimum, self.maximum))):
-            # In the order in which these rise, wavelengths fall.
-            low, high = sorted(map(wavelength_of, ends))  # type: ignore[arg-type, type-var]
-            object.__setattr__(self, "minimum", low)
-            object.__setattr__(self, "maximum", high)
-        for field in ("default", "minimum", "maximum"):
-            argument = getattr(self, field)
-            if isinstance(argument, str) and (read := wavelength_of(argument)) is not None:
-                object.__setattr__(self, field, read)
+        fields = {name: getattr(self, name) for name in ("default", "minimum", "maximum")}
+        given = {name: wavelength_of(v) for name, v in fields.items() if isinstance(v, str)}
+        read: dict[str, Any] = {name: v for name, v in given.items() if v is not None}
+        if {"minimum", "maximum"} <= read.keys():
+            # In the order in which energies rise, wavelengths fall.
+            read["minimum"], read["maximum"] = sorted([read["minimum"], read["maximum"]])
+        vars(self).update(read)
         super().__post_init__()
 
     @property
@@ -112,38 +105,16 @@ class Wavelength(Parameter):
         """Whether it has nothing of its own, so that another of its name may say all of it."""
         return self.same_specification(Wavelength(self.name))
 
-    def parse(self, text: str, default_unit: str = "") -> Any:
-        try:
-            read = wavelength_of(text)
-        except UnitError as error:
-            raise UnitError(f"parameter '{self.name}': {error}") from None
-        if read is None and (meant := spectral_unit_meant(unit_of(text))):
-            raise UnitError(
-                f"parameter '{self.name}': unit '{unit_of(text)}' of '{text}' is unknown; did you "
-                f"mean '{meant}'?"
-            )
-        if read is not None:
-            return read
-        try:
-            return super().parse(text, default_unit)
-        except UnitError as fault:
-            raise with_other_units(fault, text) from None
+    def _quantity(self, text: str, default_unit: str) -> Any:
+        return _read(text, lambda length: super(Wavelength, self)._quantity(length, default_unit))
 
     def _check_range(self, array: Any) -> None:
-        try:
-            super()._check_range(array)
-        except ParameterError as error:
-            if array.dtype.kind == "c":
-                raise
-            first = float(array[~self.allows(array)].ravel()[0])
-            if not LONGEST < first <= _MOST_NANOMETRES:
-                raise
-            name, unit = _SMALLER if first < 1.0 else _SMALL
-            raise ParameterError(
-                f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
-                f"for {name} write '{first:g} {unit}'; light "
-                f"goes from {_written(self.minimum)} to {_written(self.maximum)}"
-            ) from error
+        if array.dtype.kind != "c":
+            long = (array > max(LONGEST, self.maximum)) & (array < np.inf)
+            if np.any(long):
+                first = float(array[long].ravel()[0])
+                raise ParameterError(f"parameter '{self.name}' is {too_long(first)}")
+        super()._check_range(array)
 
 
 def read_within(span: tuple[float, float], argument: Any) -> Any:
@@ -156,32 +127,23 @@ def read_within(span: tuple[float, float], argument: Any) -> Any:
     return Wavelength(maximum=most).resolve(argument).value
 
 
-def _written(length: float) -> str:
-    """Return a wavelength in the unit in which it is usually written."""
-    unit = "nm" if length < _MICROMETRES else "um" if length < _MILLIMETRES else "mm"
-    return format_quantity(length, unit)
-
-
 _SPEED = 299792458.0
 HC = 6.62607015e-34 * _SPEED / 1.602176634e-19
 """h c / e, exact by the definitions of the SI (BIPM, 2019): electronvolts times metres."""
 
-_TIMES_WAVELENGTH = {
-    "meV": HC * 1e3,
-    "eV": HC,
-    "keV": HC / 1e3,
-    "1/um": 1e-6,
-    "1/mm": 1e-3,
-    "1/cm": 1e-2,
-    "cm^-1": 1e-2,
-    "cm-1": 1e-2,
-    "1/m": 1.0,
-    "GHz": _SPEED / 1e9,
-    "THz": _SPEED / 1e12,
-    "PHz": _SPEED / 1e15,
-    "Hz": _SPEED,
+SPECTRAL = {
+    "photon energy": {"eV": HC, "meV": HC * 1e3, "keV": HC / 1e3},
+    "wave number": {
+        **dict.fromkeys(("1/cm", "cm^-1", "cm-1"), 1e-2),
+        "1/um": 1e-6,
+        "1/mm": 1e-3,
+        "1/m": 1.0,
+    },
+    "frequency": {"THz": _SPEED / 1e12, "GHz": _SPEED / 1e9, "PHz": _SPEED / 1e15, "Hz": _SPEED},
 }
 """What a number in a unit and the wavelength in metres come to when they are multiplied."""
+
+_TIMES_WAVELENGTH = {unit: size for units in SPECTRAL.values() for unit, size in units.items()}
 
 _TEXT = re.compile(rf"([-+]?{NUMBER})\s*(\S+)", re.ASCII)
 
@@ -201,28 +163,18 @@ def wavelength_of(text: str) -> float | None:
     return _TIMES_WAVELENGTH[match[2]] / number
 
 
-def falls_with_wavelength(text: object) -> bool:
-    """Tell whether a text is a photon energy, a wave number or a frequency.
-
-    >>> falls_with_wavelength("2.4 eV"), falls_with_wavelength("516 nm")
-    (True, False)
-    """
-    match = _TEXT.fullmatch(text.strip()) if isinstance(text, str) else None
-    return match is not None and match[2] in _TIMES_WAVELENGTH
-
-
-def with_other_units(fault: UnitError, text: str) -> UnitError:
-    """Return what is said of a text that is no length, with what else a wavelength may be in."""
-    if (unit := unit_of(text)) and unit not in UNITS:
-        return fault
-    others = "eV, 1/cm, THz"
-    return UnitError(*[each.but(reason=f"{each.reason}, or {others}") for each in fault.faults])
-
-
-def spectral_unit_meant(word: str) -> str | None:
-    """Return the unit of `wavelength_of` that differs in capital letters alone, if any.
-
-    >>> spectral_unit_meant("ev"), spectral_unit_meant("nm")
-    ('eV', None)
-    """
-    return next((unit for unit in _TIMES_WAVELENGTH if unit.lower() == word.lower()), None)
+def _read(text: str, as_length: Callable[[str], Any]) -> Any:
+    """Return the wavelength that a text stands for, be it a length or what falls with one."""
+    if (read := wavelength_of(text)) is not None:
+        return read
+    unit = unit_of(text)
+    for known in _TIMES_WAVELENGTH:
+        if known.lower() == unit.lower():
+            raise UnitError(f"unit '{unit}' of '{text}' is unknown; did you mean '{known}'?")
+    try:
+        return as_length(text)
+    except UnitError as fault:
+        if unit and unit not in UNITS:
+            raise
+        others = [each.but(reason=f"{each.reason}, or eV, 1/cm, THz") for each in fault.faults]
+        raise UnitError(*others) from None

@@ -14,8 +14,8 @@ from optipath.surfaces.ends import turned_directions
 from optipath.surfaces.walk.beam import BLOCK, PORTION, walked_in_order
 from optipath.surfaces.walk.code import pixel_code
 from optipath.surfaces.walk.layout import DOWN, EVENTS, OUTCOME, UP
-from optipath.values.affine import real_number
 from optipath.values.arrays import same_fields
+from optipath.values.precision import real_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import SurfaceError, need, unknown
+from optipath.errors import SurfaceError, need, shown, unknown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.energy_shares import processors
@@ -18,7 +18,6 @@ from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.smooth import flat_light
 from optipath.surfaces.walk.beam import MOST_PHOTONS, MOST_THREADS, UNPOLARISED, beam_of
 from optipath.values.arrays import refuse_too_large
-from optipath.values.messages import PHOTONS_REPORTED, no_function
 from optipath.values.precision import whole_number
 from optipath.values.wavelength import Wavelength
 
@@ -128,7 +127,7 @@ def measure(
     faults += [] if events is None else whole_number("events", events)
     faults += [] if threads is None else whole_number("threads", threads, 1, MOST_THREADS)
     faults += unknown("polarized", polarized, NUMBERS)
-    faults += no_function("progress", progress, PHOTONS_REPORTED)
+    faults += progress_faults(progress)
     pixels = faults.attempt("", Sensor.of, sensor)
     place = faults.attempt("", store_argument, store, scheduler)
     mirrors = (
@@ -178,6 +177,14 @@ def measure(
         job = chunks.ChunkJob(seen, when, int(photons))
         sums = chunks.kept_sums(job, place, scheduler, threads, progress)
     return Hemisphere(seen, sums, when, bool(mirrors))
+
+
+def progress_faults(progress: object) -> list[str]:
+    """Return the sentence for what is no function that is told how far photons have been walked."""
+    if progress is None or callable(progress):
+        return []
+    wanted = "a function of two numbers: how many photons there are, and of how many"
+    return [f"progress is {shown(progress)}; give {wanted}"]
 
 
 def _summed(
