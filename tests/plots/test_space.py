@@ -15,8 +15,7 @@ from optipath.paths.files.presets import preset_names
 from optipath.plots import bench, geometry
 from optipath.plots.colors import FAINT
 from optipath.plots.scene.bench import DIAL, ELLIPSE
-from optipath.plots.scene.layout import scene_of
-from optipath.plots.scene.scene import SceneNode
+from optipath.plots.scene.layout import SceneNode, scene_of
 from pictures import faults_of
 from tables import rows, slow
 

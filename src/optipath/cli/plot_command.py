@@ -330,11 +330,10 @@ def draw_title(figure: Figure, title: str) -> None:
     from optipath.plots.text import broken  # noqa: PLC0415 - an extra
 
     # Each name stays beside its value.
-    *parts, last = title.split(", ")
-    words = [*(f"{part}," for part in parts), last]
-    lines = broken(words, _FILLED * figure.get_figwidth(), _POINTS)
-    figure.set_figheight(figure.get_figheight() + _LINE * len(lines))
-    figure.suptitle("\n".join(lines), fontsize=_POINTS, parse_math=False)
+    whole = title.replace(" ", "\u00a0").replace(",\u00a0", ", ")
+    said = broken(whole, _FILLED * figure.get_figwidth(), _POINTS).replace("\u00a0", " ")
+    figure.set_figheight(figure.get_figheight() + _LINE * (1 + said.count("\n")))
+    figure.suptitle(said, fontsize=_POINTS, parse_math=False)
 
 
 def title_of(chosen: Chosen, **others: str | None) -> str:

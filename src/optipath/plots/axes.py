@@ -1,8 +1,8 @@
-"""Axes to draw into: given or new; their labels and legends; saved pictures."""
+"""Axes to draw into: given or new; saved pictures."""
 
 from __future__ import annotations
 
-from math import ceil
+from numbers import Real
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -10,15 +10,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from optipath.errors import OptipathError, shown
-from optipath.plots.colors import LINES, positive
-from optipath.plots.text import draw_key, missing_letters_as_boxes
+from optipath.plots.colors import LINES
+from optipath.plots.text import missing_letters_as_boxes
 from optipath.values.files import input_file, message_of, write_picture
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Sequence
-
-    from matplotlib.text import Text
 
     Panel: TypeAlias = np.ndarray[Any, Any]
 
@@ -64,58 +61,16 @@ def own_lines(ax: Drawn) -> Drawn:
     return ax
 
 
-def fitting_text(text: Text, texts: Sequence[str], room: float) -> None:
-    """Give a text the first of several wordings that is no longer than there is room."""
-    for each in texts:
-        text.set_text(each)
-        box = text.get_window_extent()
-        if max(box.width, box.height) <= room:
-            return
+def positive(what: str, number: Any) -> list[str]:
+    """Return the sentence for what is no number above 0; none for one that is, or for None.
 
-
-def label_axes(ax: Axes, along: Sequence[str], up: Sequence[str]) -> None:
-    """Label axes by the longest of several wordings that fit."""
-    ax.set(xlabel=along[-1], ylabel=up[-1])
-    figure: Any = ax.figure
-    figure.draw_without_rendering()  # By which axes have the places of their layout.
-    box = ax.get_window_extent()
-    fitting_text(ax.xaxis.label, along, box.width)
-    fitting_text(ax.yaxis.label, up, box.height)
-
-
-_APART = 1.6
-"""How far ticks are apart at least, of the height of a line of the legend."""
-
-_SIZES = 8.5, 7.5, 6.5, 5.5
-"""Of letters in points, from which the first is taken that leaves curves enough room."""
-
-_ENOUGH = 0.36
-"""The share of the axes that a legend takes at most, if a smaller one can help it."""
-
-
-def legend_above(sides: Sequence[Axes], lines: Sequence[Any]) -> None:
-    """Draw a legend in a strip at the top, for which the axes are made higher."""
-    on_top = sides[-1]
-    figure: Any = on_top.figure
-    figure.draw_without_rendering()  # By which axes have the places of their layout.
-    whole = on_top.get_window_extent()
-    looks: dict[str, Any] = {"loc": "upper center", "borderaxespad": 0.2, "columnspacing": 1.2}
-    looks["handlelength"] = 2.6
-    looks |= {"frameon": True, "facecolor": "white", "edgecolor": "none", "framealpha": 1.0}
-    for size in _SIZES:
-        legend = draw_key(on_top, lines, len(lines), math=True, fontsize=size, **looks)
-        legend.set_in_layout(False)  # It is within the axes, which need no more room for it.
-        box = legend.get_window_extent()
-        if box.width <= whole.width and box.height <= _ENOUGH * whole.height:
-            break
-    line = legend.get_texts()[0].get_window_extent().height
-    share = min(1.04 * box.height / whole.height, 0.8)
-    for side in sides:
-        low, high = side.get_ylim()
-        ticks = [tick for tick in side.get_yticks() if low <= tick <= high]
-        room = whole.height * (1.0 - share) / max(len(ticks), 1)
-        side.set_yticks(ticks[:: ceil(_APART * line / room)])
-        side.set_ylim(low, low + (high - low) / (1.0 - share))
+    >>> positive("largest", -1.0), positive("largest", 2), positive("largest", None)
+    (['largest is -1.0; give a number above 0'], [], [])
+    """
+    real = isinstance(number, Real) and not isinstance(number, bool)
+    if number is None or (real and float(number) > 0.0):
+        return []
+    return [f"{what} is {shown(number)}; give a number above 0"]
 
 
 def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0) -> None:
@@ -144,7 +99,6 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
         raise OptipathError(f"{shown(drawn)} is no picture; give what a function of plots returned")
     if faults := positive("dots_per_inch", dots_per_inch):
         raise OptipathError(*faults)
-    figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
     place = input_file(file, OptipathError)
     with message_of(place, OptipathError), missing_letters_as_boxes():
-        write_picture(figure, place, dots_per_inch)
+        write_picture(first[0].figure.figure, place, dots_per_inch)

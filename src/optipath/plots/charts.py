@@ -3,42 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.transforms import Bbox
 
 from optipath.errors import OptipathError, shown
 from optipath.lab.bench import duration
 from optipath.lab.chart_file import CRITICAL, checked_chart, read_chart
 from optipath.lab.peer_times import peer_times
-from optipath.plots.chart_panel import (
-    FAILING,
-    GAP,
-    LEFT,
-    LINE,
-    PANEL,
-    POINTS,
-    RIGHT,
-    WIDTH,
-    WORDS,
-    ChartFrame,
-    Looks,
-    Mark,
-    colours_of,
-    draw_panel,
-    name_rows,
-    plain_axes,
-    powers_of_ten,
-)
-from optipath.plots.colors import FAINT, INK, LINES
-from optipath.plots.text import broken, shortened, width_of
-from optipath.values.files import input_file
+from optipath.plots.colors import DASHES, FAINT, INK, LINES
+from optipath.plots.labels import Label, place_labels
+from optipath.plots.text import broken, draw_key
+from optipath.values.files import bytes_of, input_file
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
 
     from matplotlib.artist import Artist
@@ -102,41 +86,63 @@ def chart(
 
 def _text(file: Path) -> str:
     try:
-        return file.read_text("utf-8")
+        return bytes_of(file).decode("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", "it is no text in UTF-8")
         raise OptipathError(f"{shown(str(file))} cannot be read: {reason}") from None
 
 
 _KINDS = {
-    "componentwise": "each component by itself, over its condition",
-    "normwise": "against the intensity, over its condition",
+    "componentwise": "each component by itself,\nover its condition",
+    "normwise": "against the intensity,\nover its condition",
 }
-_EDGE = 0.25
-"""Between words and the edge of a picture, in inches."""
+_POINTS = 14.0
+"""Of texts; pictures of this size are shown at half of it in pages."""
 
-_INNER = WIDTH - 2 * _EDGE
-_TITLE = 20.0
-_FOOT = 0.8
-"""How high the ticks and the label below a panel are."""
+_WIDTH, _HALF, _LINE = 13.0, 4.2, 0.27
+"""The width of a picture, of texts below a panel, and the height of a line, in inches."""
+
+_MAIN, _ROW = 2.9, 0.34
+"""The height of the marks of a panel, and of a row of what fails."""
+
+_TEXT: dict[str, Any] = {"fontsize": _POINTS, "color": INK, "parse_math": False}
+_FAILING = "#F7E3D4"
+"""Behind what fails: light, as the marks before it are not."""
 
 
-def _page(below: float, panels: float, title: str, messages: list[str]) -> Figure:
-    """Return a figure with a title, lines below it, and room for panels and what is below them."""
-    height = below + panels + 0.75 + LINE * len(messages) + 0.3
-    figure = Figure(figsize=(WIDTH, height), dpi=120)
-    style: dict[str, Any] = {"ha": "center", "va": "top", **WORDS}
-    words = shortened(title, _INNER, _TITLE)
-    figure.text(0.5, 1 - 0.2 / height, words, **style | {"fontsize": _TITLE})
-    for number, line in enumerate(messages):
-        figure.text(0.5, 1 - (0.65 + LINE * number) / height, line, **style)
+def _page(height: float, title: str, message: list[str]) -> Figure:
+    """Return a figure with a title and lines below it, and so much height for all else."""
+    said = _lines("\n".join([title, "; ".join(message)]), _WIDTH - 1.0)
+    high = height + _LINE * (1 + said.count("\n"))
+    figure = Figure((_WIDTH, high), dpi=120, layout="constrained")
+    figure.suptitle(said, **_TEXT)
     return figure
 
 
-def _add_panel(figure: Figure, left: float, below: float, width: float, height: float) -> Axes:
-    """Return axes at a place in inches."""
-    tall = figure.get_figheight()
-    return figure.add_axes((left / WIDTH, below / tall, width / WIDTH, height / tall))
+def _lines(text: str, inches: float) -> str:
+    return broken(text, inches, _POINTS)
+
+
+def _log_axes(axes: Axes, along: str, up: str) -> None:
+    """Make axes logarithmic, with a grid and no upper and right line."""
+    axes.set(xscale="log", yscale="log")
+    axes.minorticks_off()
+    axes.tick_params(colors=INK, labelsize=_POINTS)
+    axes.grid(visible=True, color="#ececec", linewidth=0.8)
+    axes.set_axisbelow(True)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.set_xlabel(along, loc="left" if "\n" in along else "center", **_TEXT)
+    axes.set_ylabel(up, **_TEXT)
+
+
+def _key(label: str, **style: Any) -> Line2D:
+    """Return a handle of the legend: a mark if there is a marker, else a line."""
+    style = {"color": INK, "markersize": 11, **style}
+    return Line2D([], [], label=_lines(label, 5.5), **style)
+
+
+def _draw_legend(figure: Figure, handles: Sequence[Artist]) -> None:
+    draw_key(figure, handles, 5, loc="outside lower center", fontsize=_POINTS, labelcolor=INK)
 
 
 def _interrupted(chart: Mapping[str, Any], what: str) -> list[str]:
@@ -147,54 +153,108 @@ def _interrupted(chart: Mapping[str, Any], what: str) -> list[str]:
     return [f"interrupted: {counts['measured']} of {counts['of']} {what}"]
 
 
-def _listed(parts: list[str]) -> list[str]:
-    """Return parts with semicolons between them."""
-    return [*(f"{part};" for part in parts[:-1]), *parts[-1:]]
+class _Mark(NamedTuple):
+    """A contender in one panel."""
+
+    method: str
+    dtype: str
+    engine: str
+    composing: str
+    ns: float
+    worst: float
+    median: float
+    fails: tuple[str, ...]
+
+    @classmethod
+    def of(cls, entry: Mapping[str, Any], kind: str, most: float) -> _Mark:
+        """Return the mark of a contender for one kind of errors."""
+        errors, eps = entry["errors"][kind], entry["eps"]
+        # An error of nothing has no place on a logarithmic axis: it stands at a tenth of eps.
+        worst = max(0.1, *(error["worst"] for error in errors.values()))
+        median = max(0.1, float(np.median([error["median"] for error in errors.values()])))
+        fails = tuple(name for name, error in errors.items() if not error["worst"] <= most)
+        method, dtype, engine = entry["method"], entry["dtype"], entry["engine"]
+        ns, composing = entry["ns"]["least"], entry["composing"]
+        return cls(method, dtype, engine, composing, ns, worst * eps, median * eps, fails)
+
+
+_SHAPES = {"float64": "o", "float32": "s", "longdouble": "D"}
+_FACES: dict[str, dict[str, Any]] = {"numba": {}, "numpy": {"markerfacecolor": "white"}}
+_HALF_FILLED = {"fillstyle": "left", "markerfacecoloralt": "white"}
+_FILLED = {"numba": "filled", "numpy": "open"}
+_SIZES = {"jones": 7.0}
+"""Of marks in points; that of Stokes vectors is large."""
+
+_LARGE = 12.0
+
+
+def _colours_of(methods: Iterable[str]) -> dict[str, str]:
+    return {m: LINES[place % len(LINES)] for place, m in enumerate(dict.fromkeys(methods))}
+
+
+class _Frame:
+    """What the panels of a chart share: limits, rows of what fails above the marks, and looks."""
+
+    def __init__(self, chart: Mapping[str, Any], marks: Sequence[_Mark]) -> None:
+        entries = chart["contenders"]
+        self.colours = _colours_of(entry["method"] for entry in entries)
+        self.dtypes = {entry["dtype"]: entry["eps"] for entry in entries}
+        self.limits = chart["limits_ns"]
+        self.failing = [*dict.fromkeys(mark.method for mark in marks if mark.fails)]
+        held = [size for m in marks if not m.fails for size in (m.worst, m.median)]
+        sizes = np.log10([*held, *self.dtypes.values()])
+        self.low, self.high = float(sizes.min()) - 0.8, float(sizes.max()) + 0.8
+        self.row = (self.high - self.low) * _ROW / _MAIN
+        times = np.log10([*(mark.ns for mark in marks), *self.limits.values()])
+        room = max(0.3, 0.05 * float(np.ptp(times)))
+        self.times = 10.0 ** (times.min() - room), 10.0 ** (times.max() + room)
+
+    def level(self, method: str) -> float:
+        """Return the error at which the row of a method that fails is drawn."""
+        return float(10.0 ** (self.high + self.row * (self.failing.index(method) + 0.5)))
+
+    def draw_mark(self, axes: Axes, mark: _Mark, y: float) -> None:
+        """Draw a mark at its time."""
+        style: dict[str, Any] = _FACES.get(mark.engine, _HALF_FILLED)
+        style = style | {"color": self.colours[mark.method], "marker": _SHAPES.get(mark.dtype, "^")}
+        size = _SIZES.get(mark.composing, _LARGE)
+        axes.plot(mark.ns, y, linestyle="none", markersize=size, markeredgewidth=1.8, **style)
 
 
 def _draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = None) -> Panel:
     """Draw what `path_chart` or `interface_chart` has measured."""
-    looks = Looks(chart)
     marks = {
-        kind: [Mark.of(entry, kind, chart["fails_above"]) for entry in chart["contenders"]]
+        kind: [_Mark.of(entry, kind, chart["fails_above"]) for entry in chart["contenders"]]
         for kind in _KINDS
     }
-    frame = ChartFrame.around(chart, [mark for panel in marks.values() for mark in panel])
-    legend = _rows(_groups(chart, looks, fails=bool(frame.methods)))
-    notes = [_failing_lines(chart, kind, result) for kind, result in marks.items()]
-    other = _MAIN + LINE * (len(peers.racers) + 1.3) if peers else 0.0
-    lowest = other + _FOOT + 0.7 if peers else 0.0
-    top = lowest + LINE * max(map(len, notes)) + _EDGE
-    below = top + 0.1 + LINE * 1.15 * len(legend)
-    message = broken(_listed(_effort(chart)), _INNER, POINTS)
-    title = f"Speed against accuracy: {chart['title']}"
-    figure = _page(below, _FOOT + frame.height, title, message)
-    axes = []
-    for place, (kind, title) in enumerate(_KINDS.items()):
-        left = LEFT + place * (PANEL + GAP)
-        panel = _add_panel(figure, left, below + _FOOT, PANEL, frame.height)
-        draw_panel(panel, chart, marks[kind], frame, looks)
-        panel.set_title(title, fontsize=POINTS, color=INK, pad=8)
-        panel.set_xlabel("time a path", fontsize=POINTS, color=INK)
-        panel.tick_params(labelleft=place == 0)
-        axes.append(panel)
-    name_rows(axes[0], frame)
-    axes[0].set_ylabel("relative error", fontsize=POINTS, color=INK)
-    axes[0].yaxis.set_label_coords(-0.9 / PANEL, frame.middle)
-    _draw_legend(figure, legend, below - 0.05)
-    for place, lines in enumerate(notes):
-        for number, (colour, line) in enumerate(lines):
-            left, y = _EDGE / WIDTH + place / 2, (top - LINE * number) / figure.get_figheight()
-            figure.text(left, y, "■" if colour else "", va="top", **WORDS | {"color": colour})
-            figure.text(left + (0.3 / WIDTH if number else 0.0), y, line, va="top", **WORDS)
+    frame = _Frame(chart, [mark for panel in marks.values() for mark in panel])
+    notes = {kind: _failing_lines(chart, kind, result) for kind, result in marks.items()}
+    legend = _legend(chart, frame)
+    lines = max(note.count("\n") for note in notes.values())
+    upper = _MAIN + _ROW * len(frame.failing) + _LINE * (5 + lines)
+    lower = 4.2 if peers else 0.0
+    height = upper + lower + _LINE * (3 + len(legend) / 3)
+    figure = _page(height, f"Speed against accuracy: {chart['title']}", _effort(chart))
+    rows = [upper, lower] if peers else [upper]
+    grid = figure.add_gridspec(len(rows), 2, height_ratios=rows)
+    axes = [figure.add_subplot(grid[0, place]) for place in (0, 1)]
+    for panel, kind in zip(axes, _KINDS, strict=True):
+        _log_axes(panel, f"time a path{notes[kind]}", "" if panel is axes[1] else "relative error")
+        panel.set_title(_KINDS[kind], fontsize=_POINTS, color=INK, pad=8)
+        _draw_panel(panel, marks[kind], frame, labelled=panel is axes[0])
+    precisions: dict[float, list[str]] = {}
+    for name, eps in frame.dtypes.items():
+        precisions.setdefault(eps, []).append(name)
+    names = axes[1].secondary_yaxis("right")
+    names.set_yticks([*precisions], [", ".join(several) for several in precisions.values()])
+    names.minorticks_off()
+    names.tick_params(length=0.0, colors=INK, labelsize=_POINTS)
+    names.spines["right"].set_visible(False)
     if peers:
-        axes.append(_add_panel(figure, LEFT, _FOOT, _ROOM, other))
-        _draw_peers(axes[-1], peers, other)
-        caption = (
-            "Other software (grey) beside optipath (blue), in one race over random paths;\n"
-            f"times x {peers.ratio:.3g}, which makes '{peers.shared}' as fast as above"
-        )
-        figure.text(_EDGE / WIDTH, lowest / figure.get_figheight(), caption, va="top", **WORDS)
+        axes.append(figure.add_subplot(grid[1, :]))
+    _draw_legend(figure, legend)
+    if peers:
+        _draw_peers(axes[-1], peers)
     return np.array(axes, object)
 
 
@@ -211,31 +271,28 @@ def _effort(chart: Mapping[str, Any]) -> list[str]:
     return [part for part in said if part]
 
 
-def _failing_lines(
-    chart: Mapping[str, Any], kind: str, marks: list[Mark]
-) -> list[tuple[str | None, str]]:
-    """Return the lines that tell where methods fail, the first one of each with its color."""
+def _failing_lines(chart: Mapping[str, Any], kind: str, marks: list[_Mark]) -> str:
+    """Return lines that tell where methods fail."""
     regions = dict.fromkeys(name for entry in chart["contenders"] for name in entry["errors"][kind])
-    colours = Looks(chart).colours
-    results: list[tuple[str | None, str]] = []
+    results: list[str] = []
     for method in dict.fromkeys(mark.method for mark in marks if mark.fails):
         own = [mark for mark in marks if mark.method == method]
         where = {name: [mark for mark in own if name in mark.fails] for name in regions}
         failing = [name for name, marked in where.items() if marked]
-        words = [f"{shortened(method, 1.6, POINTS)}:"]
         if all(len(marked) == len(own) for marked in where.values()):
-            words += ["everywhere"]
+            said = ["everywhere"]
         elif len(regions) > len(failing) > len(regions) / 2:
-            words += ["all but:", *_listed([name for name in regions if name not in failing])]
+            said = [name for name in regions if name not in failing]
+            said[0] = f"all but: {said[0]}"
         else:
-            words += _listed([name + _precisions(where[name], own) for name in failing])
-        first, *more = broken(words, WIDTH / 2 - 2 * _EDGE - 0.3, POINTS)
-        results += [(colours[method], first), *((None, line) for line in more)]
+            said = [name + _precisions(where[name], own) for name in failing]
+        results.append(f"• {method:.12}: {'; '.join(said)}")
     count = "1 region" if len(regions) == 1 else f"{len(regions)} regions"
-    return [(None, f"Where methods fail, {kind}, of {count}:"), *results] if results else []
+    title = f"\n\nWhere methods fail, {kind}, of {count}:"
+    return _lines("\n".join([title, *results]), _HALF) if results else ""
 
 
-def _precisions(failing: list[Mark], own: list[Mark]) -> str:
+def _precisions(failing: list[_Mark], own: list[_Mark]) -> str:
     """Return the precisions that fail in a region, if others of the method hold there."""
     dtypes = {mark.dtype for mark in failing}
     if len(failing) == len(own):
@@ -245,117 +302,102 @@ def _precisions(failing: list[Mark], own: list[Mark]) -> str:
     return " (in part)"
 
 
-_FILLED = {"numba": "filled", "numpy": "open"}
-
-
-def _key(label: str, **style: Any) -> Line2D:
-    """Return a handle of the legend: a mark if there is a marker, else a line."""
-    style = {"color": INK, "markersize": 11, **style}
-    return Line2D([], [], label=shortened(label, 6.0, POINTS), **style)
-
-
-def _groups(chart: Mapping[str, Any], looks: Looks, *, fails: bool) -> list[list[Artist]]:
-    """Return what is explained, each group in rows of its own."""
+def _legend(chart: Mapping[str, Any], frame: _Frame) -> list[Artist]:
+    """Return what is explained."""
     dot: dict[str, Any] = {"marker": "o", "linewidth": 0}
-    groups: list[list[Artist]] = [
-        [
-            *(_key(name, color=colour, lw=7) for name, colour in looks.colours.items()),
-            *(_key(name, linewidth=0, marker=shape) for name, shape in looks.shapes.items()),
-        ],
-        [
-            _key(f"{_FILLED.get(name, 'half')}: {name}", **dot, mew=1.8, **face)
-            for name, face in looks.faces.items()
-        ],
-        [
-            _key("frontier: best that fails nowhere", color=FAINT, lw=1.8),
-            _key("eps", color=FAINT, ls="--"),
-            _key("machine's limit", color=FAINT, lw=1.6, ls=":"),
-        ],
-    ]
-    for name in looks.ways if len(looks.ways) > 1 else ():
-        words = {"stokes": "large: Stokes", "jones": "small: Jones"}.get(name, f"large: {name}")
-        groups[1].append(_key(words, **dot | {"markersize": looks.size(name)}))
-    groups[1] += [
-        _key("worst region", **dot),
-        _key("middle region", **dot | {"marker": "_"}, mew=2),
-    ]
-    if fails:
-        label = f"fails (over {chart['fails_above']:g} ulp*) in so many regions"
-        groups[-1].insert(0, Patch(facecolor=FAILING, label=label))
-        ulp = "units in the last place, divided by 1 + the condition number"
-        groups.append([_key(ulp, **dot | {"marker": "$*$", "markersize": 9})])
-    return groups
-
-
-def _rows(groups: list[list[Artist]]) -> list[list[Artist]]:
-    """Return what is explained in rows that fit the width of a picture."""
-    rows: list[list[Artist]] = []
-    for group in groups:
-        reached = WIDTH
-        for handle in group:
-            needed = 0.6 + 1.03 * width_of(str(handle.get_label()), POINTS)
-            if reached + needed > _INNER:
-                rows.append([])
-                reached = 0.0
-            rows[-1].append(handle)
-            reached += needed
-    return rows
-
-
-def _draw_legend(figure: Figure, rows: list[list[Artist]], top: float) -> None:
-    """Draw rows of what is explained."""
-    for number, row in enumerate(rows):
-        figure.legend(
-            handles=row,
-            ncols=len(row),
-            loc="upper left",
-            bbox_to_anchor=(_EDGE / WIDTH, (top - LINE * 1.15 * number) / figure.get_figheight()),
-            borderaxespad=0.0,
-            borderpad=0.0,
-            frameon=False,
-            fontsize=POINTS,
-            labelcolor=INK,
-            handlelength=1.3,
-            handletextpad=0.5,
-            columnspacing=1.1,
+    engines, ways = (
+        dict.fromkeys(entry[word] for entry in chart["contenders"])
+        for word in ("engine", "composing")
+    )
+    keys: list[Artist] = [_key(name, color=c, lw=7) for name, c in frame.colours.items()]
+    keys += [_key(name, linewidth=0, marker=_SHAPES.get(name, "^")) for name in frame.dtypes]
+    keys += [
+        _key(
+            f"{_FILLED.get(name, 'half')}: {name}", **dot, mew=1.8, **_FACES.get(name, _HALF_FILLED)
         )
+        for name in engines
+    ]
+    for name in ways if len(ways) > 1 else ():
+        text = {"stokes": "large: Stokes", "jones": "small: Jones"}.get(name, f"large: {name}")
+        keys.append(_key(text, **dot | {"markersize": _SIZES.get(name, _LARGE)}))
+    keys += [_key("worst region", **dot), _key("middle region", **dot | {"marker": "_"}, mew=2)]
+    keys.append(_key("frontier: best that fails nowhere", color=FAINT, lw=1.8))
+    keys.append(_key("eps", color=FAINT, ls="--"))
+    for (name, ns), dashes in zip(frame.limits.items(), DASHES[2:], strict=False):
+        keys.append(_key(f"{name}: {duration(1e-9 * ns)}", color=FAINT, lw=1.6, ls=dashes))
+    if frame.failing:
+        label = f"fails (over {chart['fails_above']:g} ulp*) in so many regions"
+        keys.append(Patch(facecolor=_FAILING, label=label))
+        ulp = "units in the last place, divided by 1 + the condition number"
+        keys.append(_key(ulp, **dot | {"marker": "$*$", "markersize": 9}))
+    return keys
 
 
-_MAIN = 2.2
-_ROOM = WIDTH - LEFT - RIGHT
-
-
-def _draw_peers(axes: Axes, peers: PeerTimes, height: float) -> None:
-    """Draw error over time of all who took part in a race, their names in rows above."""
-    racers = sorted(peers.racers, key=lambda racer: racer.ns, reverse=True)
-    names = [shortened(racer.name, _ROOM / 2, POINTS) for racer in racers]
-    at = np.log10([racer.ns for racer in racers])
-    wide = np.array([1.04 * width_of(name, POINTS) + 0.15 for name in names])
-    first = at.min() - 0.2
-    # Wide enough that the last name ends within.
-    decades = max(1.0, float(np.max((at - first) * _ROOM / (_ROOM - wide))))
-    errors = np.log10([racer.error for racer in racers])
-    low, high = errors.min() - 0.7, errors.max() + 0.7
-    top = low + (high - low) * height / _MAIN
-    times = 10.0**first, 10.0 ** (first + decades)
-    plain_axes(axes, xlim=times, ylim=(10.0**low, 10.0**top))
-    axes.set_xticks(powers_of_ten(*times, 10))
-    axes.set_yticks(powers_of_ten(10.0**low, 10.0**high, 6))
-    axes.minorticks_off()
+def _draw_panel(axes: Axes, marks: list[_Mark], frame: _Frame, *, labelled: bool) -> None:
+    """Draw one kind of errors, with a row above for each method that fails in some region."""
+    top = frame.high + frame.row * len(frame.failing)
+    axes.set(xlim=frame.times, ylim=(10.0**frame.low, 10.0**top))
     axes.xaxis.set_major_formatter(lambda ns, _: duration(1e-9 * ns))
-    for row, (racer, name) in enumerate(zip(racers, names, strict=True)):
+    axes.axhspan(10.0**frame.high, 10.0**top, color=_FAILING, linewidth=0.0, zorder=0.6)
+    for eps in frame.dtypes.values():
+        axes.axhline(eps, color=FAINT, linewidth=1.0, linestyle="--", zorder=0.8)
+    for ns, dashes in zip(frame.limits.values(), DASHES[2:], strict=False):
+        axes.axvline(ns, color=FAINT, linewidth=1.6, linestyle=dashes, zorder=0.5)
+    _draw_frontier(axes, [(mark.ns, mark.worst) for mark in marks if not mark.fails], frame)
+    for mark in marks:
+        if mark.fails:
+            aside = frame.row * (-0.22 if mark.composing == "jones" else 0.12)
+            frame.draw_mark(axes, mark, frame.level(mark.method) * 10.0**aside)
+            continue
+        colour = frame.colours[mark.method]
+        axes.plot([mark.ns] * 2, [mark.median, mark.worst], color=colour, lw=0.9, alpha=0.6)
+        axes.plot(mark.ns, mark.median, marker="_", color=colour, markersize=8)
+        frame.draw_mark(axes, mark, mark.worst)
+    powers = np.arange(np.ceil(frame.low), frame.high)[:: int(frame.high - frame.low) // 7 + 1]
+    ticks = {10.0**power: f"$10^{{{power:.0f}}}$" if labelled else "" for power in powers}
+    for method in frame.failing:
+        counts = sorted({len(mark.fails) for mark in marks if mark.method == method})
+        count = " to ".join(str(each) for each in dict.fromkeys((counts[0], counts[-1])))
+        count = "nowhere" if counts == [0] else count
+        ticks[frame.level(method)] = f"{method:.12}: {count}" if labelled else count
+    axes.set_yticks([*ticks], [*ticks.values()])
+
+
+def _draw_frontier(axes: Axes, points: list[tuple[float, float]], frame: _Frame) -> None:
+    """Draw the best of all that fails nowhere."""
+    best: list[tuple[float, float]] = []
+    for x, y in sorted(points):
+        if not best or y < best[-1][1]:
+            best.append((x, y))
+    if best:
+        along = [(best[0][0], 10.0**frame.high), *best, (frame.times[1], best[-1][1])]
+        axes.step(*np.transpose(along), where="post", color=FAINT, linewidth=1.8, zorder=0.9)
+
+
+def _draw_peers(axes: Axes, peers: PeerTimes) -> None:
+    """Draw error over time of all who took part in a race."""
+    _log_axes(axes, "time a path", "largest error / S0")
+    axes.margins(0.12, 0.3)
+    axes.xaxis.set_major_formatter(lambda ns, _: duration(1e-9 * ns))
+    for racer in peers.racers:
         colour = LINES[0] if racer.is_own else FAINT
-        y = (_MAIN + LINE * (row + 0.1)) / height
-        axes.plot([racer.ns] * 2, [racer.error, 10.0 ** (low + (top - low) * y)], color=colour)
-        axes.lines[-1].set(linewidth=0.8, alpha=0.7)
         axes.plot(racer.ns, racer.error, "o", color=colour, markersize=11)
-        axes.text(racer.ns, y, name, transform=axes.get_xaxis_transform(), va="bottom", **WORDS)
-    axes.set_xlabel("time a path", fontsize=POINTS, color=INK)
-    axes.set_ylabel("largest error / S0", fontsize=POINTS, color=INK)
-    axes.yaxis.set_label_coords(-0.9 / _ROOM, _MAIN / 2 / height)
+    caption = (
+        "Other software (grey) beside optipath (blue), in one race over random paths;\n"
+        f"times x {peers.ratio:.3g}, which makes '{peers.shared}' as fast as above"
+    )
+    axes.set_title(caption, loc="left", fontsize=_POINTS, color=INK)
+    figure: Any = axes.figure
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    at = np.array([(racer.ns, racer.error) for racer in peers.racers])
+    taken = [Bbox([pixel - 13.0, pixel + 13.0]) for pixel in axes.transData.transform(at)]
+    labels = [
+        Label(_lines(racer.name, 4.0), place, _TEXT)
+        for racer, place in zip(peers.racers, at, strict=True)
+    ]
+    place_labels(axes, labels, [], axes.get_window_extent(), taken=taken)
 
 
-_LEFT, _BETWEEN, _HIGH, _UNDER = 1.35, 0.35, 3.3, 0.85
 _DASHES: dict[str, Any] = {"componentwise": "-", "normwise": (0, (3, 1.5))}
 _LOST = 1.0
 """The relative error of a number of which no digit is right, at which larger ones are drawn."""
@@ -363,57 +405,42 @@ _LOST = 1.0
 
 def _draw_critical(chart: Mapping[str, Any]) -> Panel:
     """Draw what `critical_chart` has measured, a panel a place."""
-    places = chart["places"]
-    colours = colours_of(dict.fromkeys(name for place in places for name in place["errors"]))
+    places, eps, above = chart["places"], chart["eps"], chart["fails_above"]
+    colours = _colours_of(name for place in places for name in place["errors"])
     columns = min(2, len(places))
     rows = -(-len(places) // columns)
-    methods: list[Artist] = [_key(name, color=colour, lw=7) for name, colour in colours.items()]
-    kinds: list[Artist] = [
+    message = [
+        f"the worst of {chart['samples']} samples at each distance, over its condition",
+        f"{chart['dtype']}, NumPy, Stokes vectors",
+        "at 1 no digit is right",
+        *_interrupted(chart, "distances"),
+    ]
+    figure = _page(4.1 * rows + 1.2, f"Where methods fail: {chart['title']}", message)
+    panel = figure.subplots(rows, columns, sharey=True, squeeze=False)
+    for spare in panel.flat[len(places) :]:
+        spare.remove()
+    axes = panel.flat[: len(places)]
+    for place, ax in zip(places, axes, strict=True):
+        distances = place["distances"]
+        words = _lines(f"distance from {place['called']} (rad)", 5.0)
+        _log_axes(ax, words, "relative error" if ax in panel[:, 0] else "")
+        ax.set(xlim=(min(distances) / 1.5, max(distances) * 1.5), ylim=(eps / 30, 30.0))
+        ax.set_yticks(10.0 ** np.arange(0.0, np.log10(eps / 30), -4.0))
+        ax.minorticks_off()
+        ax.axhline(eps, color=FAINT, linewidth=1.2, linestyle="--")
+        ax.axhline(above * eps, color=FAINT, linewidth=1.2, linestyle=":")
+        for method, kinds in place["errors"].items():
+            for kind, dashes in _DASHES.items():
+                # An error of nothing has no place on a logarithmic axis.
+                errors = np.clip(np.array(kinds[kind]) * eps, eps / 10, _LOST)
+                style: dict[str, Any] = {"color": colours[method], "linestyle": dashes}
+                ax.plot(distances, errors, linewidth=2.2, **style)
+    keys: list[Artist] = [_key(name, color=colour, lw=7) for name, colour in colours.items()]
+    keys += [
         _key("each component by itself", lw=2.2, ls=_DASHES["componentwise"]),
         _key("against the intensity", lw=2.2, ls=_DASHES["normwise"]),
         _key("fails above", lw=2.2, color=FAINT, ls=":"),
         _key("rounding, eps", lw=2.2, color=FAINT, ls="--"),
     ]
-    legend = _rows([methods, kinds])
-    said = [
-        f"the worst of {chart['samples']} samples at each distance, over its condition",
-        f"{shortened(chart['dtype'], 2.0, POINTS)}, NumPy, Stokes vectors",
-        "at 1 no digit is right",
-    ]
-    message = broken(_listed([*said, *_interrupted(chart, "distances")]), _INNER, POINTS)
-    below = LINE * 1.15 * len(legend) + _EDGE
-    title = f"Where methods fail: {chart['title']}"
-    figure = _page(below, rows * (_HIGH + _UNDER) - 0.2, title, message)
-    wide = (WIDTH - _LEFT - _EDGE - _BETWEEN * (columns - 1)) / columns
-    axes = []
-    for number, place in enumerate(places):
-        row, column = divmod(number, columns)
-        under = below + (rows - row - 1) * (_HIGH + _UNDER) + _UNDER
-        panel = _add_panel(figure, _LEFT + column * (wide + _BETWEEN), under, wide, _HIGH)
-        _draw_place(panel, chart, place, colours)
-        if column == 0:
-            panel.set_ylabel("relative error", fontsize=POINTS, color=INK)
-        panel.tick_params(labelleft=column == 0)
-        axes.append(panel)
-    _draw_legend(figure, legend, below - 0.05)
+    _draw_legend(figure, keys)
     return np.array(axes, object)
-
-
-def _draw_place(
-    axes: Axes, chart: Mapping[str, Any], place: Mapping[str, Any], colours: Mapping[str, str]
-) -> None:
-    """Draw errors over the distance from one place."""
-    eps, distances = chart["eps"], place["distances"]
-    limits = min(distances) / 1.5, max(distances) * 1.5
-    plain_axes(axes, xlim=limits, ylim=(eps / 30, 30.0))
-    axes.set_yticks(10.0 ** np.arange(0.0, np.log10(eps / 30), -4.0))
-    axes.minorticks_off()
-    axes.axhline(eps, color=FAINT, linewidth=1.2, linestyle="--")
-    axes.axhline(chart["fails_above"] * eps, color=FAINT, linewidth=1.2, linestyle=":")
-    for method, kinds in place["errors"].items():
-        for kind, dashes in _DASHES.items():
-            # An error of nothing has no place on a logarithmic axis.
-            errors = np.clip(np.array(kinds[kind]) * eps, eps / 10, _LOST)
-            axes.plot(distances, errors, color=colours[method], linestyle=dashes, linewidth=2.2)
-    words = shortened(f"distance from {place['called']} (rad)", 5.3, POINTS)
-    axes.set_xlabel(words, **WORDS)

@@ -9,10 +9,9 @@ import numpy as np
 from optipath.errors import OptipathError, listed, unknown
 from optipath.light.light import Light
 from optipath.plots.axes import own_axes
-from optipath.plots.drawn_curves import draw_curves, units_of
 from optipath.plots.light_at_detector import AlongAxis
 from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
-from optipath.plots.parameter_curves import draw_map
+from optipath.plots.parameter_curves import draw_curves, draw_map, units_of
 from optipath.sweeps.labels import CAPITALIZED, DETECTOR
 from optipath.values.units import in_unit
 
@@ -66,7 +65,7 @@ def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
         )
     from optipath.plots import poincare as sphere  # noqa: PLC0415 - in space
 
-    return sphere(Light(stokes), ax, by=along.numbers, label=along.labels[-1])
+    return sphere(Light(stokes), ax, by=along.numbers, label=along.short)
 
 
 _SHORT = (("nm", 1e-5), ("um", 1e-3), ("mm", np.inf))

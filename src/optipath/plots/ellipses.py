@@ -175,12 +175,7 @@ def draw_unpolarised(ax: Axes, light: Light, line: Mapping[str, Any]) -> Circle 
 
 
 def unpolarised_share(light: Light) -> float:
-    """Return how much of S0 is unpolarised: 0 where it is no more than noise, NaN where unknown.
-
-    >>> import optipath as op
-    >>> unpolarised_share(op.Light([2.0, 0.0, 0.6, 0.8]))
-    0.5
-    """
+    """Return how much of S0 is unpolarised: 0 where it is no more than noise, NaN where unknown."""
     rounding = 4.0 * float(np.finfo(light.stokes.dtype).eps)
     share = 1.0 - float(light.dop)
     return 0.0 if share < rounding else share

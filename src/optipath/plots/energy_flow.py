@@ -13,12 +13,12 @@ from optipath.paths.energy import energy_along
 from optipath.paths.path_graph import PathGraph
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
+from optipath.plots.text import inches_of, width_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from matplotlib.axes import Axes
-    from matplotlib.text import Text
 
     from optipath.paths.energy import EnergyAlong, PowerOnLink
     from optipath.values.precision import Numbers
@@ -32,7 +32,7 @@ _TAKEN_TEXT = "#A04700"
 """The same, darker, as texts are read."""
 
 _POINTS = 10.0
-_LEAST_MIDDLE = 0.3
+_MIDDLE = 0.32
 """The share of the width that is left to ribbons at least."""
 
 
@@ -118,42 +118,30 @@ def _draw(ax: Axes, rows: list[EnergyRow], links: list[EnergyLink]) -> float:
 
 def _write(ax: Axes, rows: Sequence[EnergyRow], result: EnergyAlong, width: float) -> None:
     """Write names on the left and what becomes of light on the right, as large as they fit."""
-    style: dict[str, Any] = {"va": "center", "color": INK}
-    names, messages = [], []
-    for at, row in enumerate(rows):
-        names.append(ax.text(0.0, -float(at), row.name, ha="right", **style))
-        messages.append(ax.text(0.0, -float(at), _sentence(row, result), ha="left", **style))
+    names, messages = [row.name for row in rows], [_sentence(row, result) for row in rows]
+    # In inches, of letters of one point; each column begins half a letter beside the ribbons.
+    left, right, below = (
+        max((width_of(text, 1.0) for text in texts), default=0.0)
+        for texts in (names, messages, result.notes)
+    )
+    left, right = left + 1.0 / 72.0, right + 1.0 / 72.0
+    (wide, high), (low, top) = inches_of(ax), ax.get_ylim()
+    size = min(_POINTS, 0.72 * 72.0 * high / (top - low), (1.0 - _MIDDLE) * wide / (left + right))
+    size = min(size, wide / below) if below else size
+    unit = width / (wide - size * (left + right))
+    edges = -size * left * unit, width + size * right * unit
+    ax.set_xlim(*edges)
+    apart = 0.5 * size / 72.0 * unit
+    style: dict[str, Any] = {"va": "center", "color": INK, "fontsize": size}
+    for at, (row, name, message) in enumerate(zip(rows, names, messages, strict=True)):
+        ax.text(-apart, -float(at), name, ha="right", **style)
+        told = ax.text(width + apart, -float(at), message, ha="left", **style)
         if row.told == "takes":
-            messages[-1].set_color(_TAKEN_TEXT)
-    notes = [
-        ax.text(0.0, -float(len(rows) + at), note, ha="left", **style)
-        for at, note in enumerate(result.notes)
-    ]
-
-    def longest(texts: Sequence[Text]) -> float:
-        return max([text.get_window_extent().width for text in texts], default=0.0)
-
-    figure: Any = ax.figure.figure
-    whole, (low, high) = ax.get_window_extent(), ax.get_ylim()
-    size = min(_POINTS, 0.72 * whole.height / (high - low) * 72.0 / figure.dpi)
-    while True:
-        for text in (*names, *messages, *notes):
-            text.set_fontsize(size)
-        left, right = longest(names) + size, longest(messages) + size
-        middle = whole.width - left - right
-        fits = middle >= _LEAST_MIDDLE * whole.width and longest(notes) <= whole.width
-        if fits or size < 1.0:
-            break
-        size *= 0.95
-    unit = width / middle
-    ax.set_xlim(-left * unit, width + right * unit)
-    for at, (name, message) in enumerate(zip(names, messages, strict=True)):
-        name.set_x(-0.5 * size * unit)
-        message.set_x(width + 0.5 * size * unit)
+            told.set_color(_TAKEN_TEXT)
         line: dict[str, Any] = {"color": FAINT, "linewidth": 0.4, "alpha": 0.5, "zorder": 0.5}
         ax.plot([0.0, width], [-float(at)] * 2, **line)
-    for note in notes:
-        note.set_x(-left * unit)
+    for at, note in enumerate(result.notes, len(rows)):
+        ax.text(edges[0], -float(at), note, ha="left", **style)
 
 
 def _sentence(row: EnergyRow, result: EnergyAlong) -> str:
@@ -256,12 +244,6 @@ def energy_rows(result: EnergyAlong) -> tuple[list[EnergyRow], list[EnergyLink]]
 
     Light keeps the lane of its element; what splits off takes the next free lane, and what returns,
     a lane to the right of all others.
-
-    >>> import optipath as op
-    >>> from optipath.paths.energy import energy_along
-    >>> rows, _ = energy_rows(energy_along(op.load_preset("two-panes")))
-    >>> [(row.name, row.lane, row.told) for row in rows[:4]]
-    [('lamp', 0, 'gives'), ('pane1', 0, ''), ('pane1.transmitted', 1, 'leaves'), ('pane2', 0, '')]
     """
     names = _in_order(result.links)
     place = {name: row for row, name in enumerate(names)}
@@ -342,11 +324,7 @@ _THICK = 0.25
 
 
 def bent(stations: list[tuple[float, float]]) -> Numbers:
-    """Return a line (..., 2) that goes through stations and is upright in each.
-
-    >>> bent([(0.0, 0.0), (1.0, -1.0)])[[0, 12, -1]].tolist()
-    [[0.0, 0.0], [0.5, -0.5], [1.0, -1.0]]
-    """
+    """Return a line (..., 2) that goes through stations and is upright in each."""
     ease = _STEPS**2 * (3.0 - 2.0 * _STEPS)
     parts = []
     for (x, y), (to_x, to_y) in pairwise(stations):

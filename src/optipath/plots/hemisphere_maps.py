@@ -7,13 +7,20 @@ from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Patch
 
 from optipath.errors import SurfaceError
-from optipath.plots.axes import own_axes, own_panel
-from optipath.plots.color_scale import ColourScale
-from optipath.plots.colors import positive
-from optipath.plots.hemisphere_disc import draw_disc, head_panel
-from optipath.plots.hemisphere_side import QUANTITIES, SeenSide, largest_of, quantity_of
+from optipath.plots.axes import own_axes, own_panel, positive
+from optipath.plots.colors import FAINT, HATCHED, INK, ColourScale
+from optipath.plots.hemisphere_side import (
+    QUANTITIES,
+    SeenSide,
+    degrees,
+    largest_of,
+    quantity_of,
+)
+from optipath.plots.text import key_below
 from optipath.surfaces.walk.beam import UNPOLARISED
 
 if TYPE_CHECKING:
@@ -21,6 +28,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
     from matplotlib.axes import Axes
+    from matplotlib.image import AxesImage
 
     from optipath.plots.axes import Panel
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
@@ -104,10 +112,10 @@ def hemisphere(
     seen = SeenSide.of(measured, side, wavelength, source, every=drawn.over_wavelengths)
     if drawn.masked and any(seen.source[1:]):
         raise SurfaceError(f"{drawn.variable} is of unpolarised light; leave source out")
-    pixels = drawn.known(seen, known_to, mask)
+    values, unknown = drawn.known(seen, known_to, mask)
     ax = own_axes(ax, (5.6, 5.0))
-    scale = drawn.scale(largest_of(pixels.values) if largest is None else largest)
-    image = draw_disc(ax, seen, pixels.values, scale, hatched=fill(pixels.unknown, _COLUMNS))
+    scale = drawn.scale(largest_of(values) if largest is None else largest)
+    image = _draw_disc(ax, seen, values, scale, hatched=fill(unknown, _COLUMNS))
     scale.bar(image, ax, drawn.label, shrink=0.8)
     ax.set_title(seen.titled(drawn.variable))
     return ax
@@ -169,17 +177,17 @@ def mueller_hemisphere(
     value = np.where(error <= limit, value, np.nan)
     light = seen.per_steradian(measured.mueller[0][..., 0, 0])
     toned, signed = ColourScale.light(largest_of(light)), ColourScale.signed(1.0)
-    first = draw_disc(panel[0, 0], seen, light, toned, labelled=False)
+    first = _draw_disc(panel[0, 0], seen, light, toned, labelled=False)
     for row, column in np.ndindex(4, 4):
         name = f"M{row}{column}"
         ax: Any = panel[row, column]
         ax.set_title(f"{name} / M00" if row or column else "M00")
         if row or column:
             pixels = value[..., row, column]
-            image = draw_disc(ax, seen, pixels, signed, labelled=False)
+            image = _draw_disc(ax, seen, pixels, signed, labelled=False)
     toned.bar(first, list(panel[:2].flat), "M00 (1/sr)", shrink=0.8)
     signed.bar(image, list(panel[2:].flat), "over M00", shrink=0.8)
-    head_panel(panel, axes, seen, "Mueller matrices", f"no light, or not known to {limit:g}")
+    _head_panel(panel, axes, seen, "Mueller matrices", f"no light, or not known to {limit:g}")
     return panel
 
 
@@ -230,10 +238,10 @@ def differences(
     polarised, scalar, apart = map(seen.per_steradian, every)
     light = ColourScale.light(max(largest_of(polarised), largest_of(scalar)))
     signed = ColourScale.signed_light(largest_of(apart))
-    draw_disc(panel[0], seen, polarised, light)
-    image = draw_disc(panel[1], seen, scalar, light)
+    _draw_disc(panel[0], seen, polarised, light)
+    image = _draw_disc(panel[1], seen, scalar, light)
     light.bar(image, list(panel[:2]), "light (1/sr)", shrink=0.8)
-    signed.bar(draw_disc(panel[2], seen, apart, signed), panel[2], "S0 - U (1/sr)", shrink=0.8)
+    signed.bar(_draw_disc(panel[2], seen, apart, signed), panel[2], "S0 - U (1/sr)", shrink=0.8)
     titles = "with polarisation, S0", "without polarisation, U", "difference, S0 - U"
     for ax, title in zip(panel, titles, strict=True):
         ax.set_title(title)
@@ -312,9 +320,106 @@ def beside_facets(
     ):
         for row, column in product(rows, columns):
             ax: Any = panel[row, column]
-            image = draw_disc(ax, seen, values[row, ..., column], scale, labelled=False)
+            image = _draw_disc(ax, seen, values[row, ..., column], scale, labelled=False)
             ax.set_title(f"S{column}, {_ROWS[row]}")
         together = list(panel[np.ix_(rows, columns)].flat)
         scale.bar(image, together, label, location=place, shrink=0.8)
-    head_panel(panel, axes, seen, "scattered once")
+    _head_panel(panel, axes, seen, "scattered once")
     return panel
+
+
+_RINGS = 30.0, 60.0
+_LABELLED_AT = np.radians(-62.0)
+"""At which azimuth rings are labelled: away from the plane of incidence, where the light is."""
+
+_AZIMUTHS = (0.0, "left", "center"), (90.0, "center", "bottom"), (180.0, "right", "center")
+_RING: dict[str, Any] = {"fc": "none", "ec": FAINT, "lw": 0.6, "ls": (0, (4, 3)), "zorder": 4}
+
+
+def _draw_disc(
+    ax: Axes,
+    seen: SeenSide,
+    values: Numbers,
+    scale: ColourScale,
+    *,
+    labelled: bool = True,
+    hatched: str = "",
+) -> AxesImage:
+    """Draw the pixels of a side within the circle of the horizon, with rings and azimuths.
+
+    Pixels without a value are hatched; a cross marks the specular or refracted direction.
+    """
+    ax.set_axis_off()
+    horizon = Circle((0.0, 0.0), 1.0, facecolor="none", edgecolor=INK, linewidth=1.0, zorder=3)
+    ax.add_patch(horizon)
+    keys = []
+    if np.isnan(values[~np.isnan(seen.measured.sensor.theta)]).any():
+        ax.add_patch(Circle((0.0, 0.0), 1.0, **HATCHED))
+        keys += [Patch(label=hatched, **HATCHED)] if hatched else []
+    place: dict[str, Any] = {"origin": "lower", "extent": (-1.0, 1.0, -1.0, 1.0), "zorder": 2}
+    image = ax.imshow(
+        np.ma.masked_invalid(values),
+        scale.colours,
+        scale.norm,
+        interpolation="nearest",
+        **place,
+    )
+    image.set_clip_path(horizon)
+    reach = 1.16 if labelled else 1.03
+    ax.set(xlim=(-reach, reach), ylim=(-reach, reach))
+    _draw_rings(ax, seen, labelled=labelled)
+    _mark_mirrored(ax, seen)
+    if labelled and (keys := [*_keys(seen), *keys]):
+        key_below(ax, keys)
+    return image
+
+
+def _head_panel(axes: Any, argument: Any, seen: SeenSide, what: str, hatched: str = "") -> None:
+    """Say above discs that are not labelled what is seen, where a caller has not their figure."""
+    if argument is None:
+        messages = [
+            "rings: 30° and 60° from the normal",
+            *(f"+ {each.get_label()}" for each in _keys(seen)),
+        ]
+        messages += [f"hatched: {hatched}"] if hatched else []
+        figure = axes.flat[0].figure.figure
+        figure.suptitle(f"{seen.titled(what)}\n{'; '.join(messages)}", fontsize="medium")
+
+
+def _draw_rings(ax: Axes, seen: SeenSide, *, labelled: bool) -> None:
+    style: dict[str, Any] = {"ha": "center", "va": "center", "color": INK, "zorder": 6}
+    x, y = np.cos(_LABELLED_AT), np.sin(_LABELLED_AT)
+    backed = {"boxstyle": "round,pad=0.12", "fc": "white", "ec": "none", "alpha": 0.75}
+    for angle in _RINGS:
+        radius = seen.radius(np.radians(angle))
+        ax.add_patch(Circle((0.0, 0.0), radius, **_RING))
+        if labelled:
+            text = ax.text(radius * x, radius * y, f"{angle:g}°", fontsize="x-small", **style)
+            text.set_bbox(backed)
+    if not labelled:
+        return
+    ax.text(1.08 * x, 1.08 * y, "θ = 90°", fontsize="x-small", **style | {"ha": "left"})
+    for azimuth, across, up in _AZIMUTHS:
+        x, y = np.cos(np.radians(azimuth)), np.sin(np.radians(azimuth))
+        ax.plot([0.97 * x, 1.03 * x], [0.97 * y, 1.03 * y], color=INK, linewidth=1.0, zorder=5)
+        name = f"{azimuth:g}°" if azimuth else "φ = 0°"
+        ax.text(1.05 * x, 1.05 * y, name, ha=across, va=up, fontsize="small", color=INK)
+
+
+def _mark_mirrored(ax: Axes, seen: SeenSide) -> None:
+    """Mark where a smooth sample sends light."""
+    if np.isnan(angle := seen.mirrored):
+        return
+    # White within black is seen on any colour.
+    for size, width, colour in ((9.0, 3.0, "black"), (8.0, 1.2, "white")):
+        mark: dict[str, Any] = {"marker": "+", "markersize": size, "markeredgewidth": width}
+        ax.plot(seen.radius(angle), 0.0, color=colour, linestyle="none", zorder=7, **mark)
+
+
+def _keys(seen: SeenSide) -> list[Any]:
+    """Return what names the mark."""
+    if np.isnan(angle := seen.mirrored):
+        return []
+    what = "specular direction" if seen.side == "reflected" else "refracted by a smooth sample"
+    label = f"{what}, {degrees(angle)}"
+    return [Line2D([], [], marker="+", color=INK, linestyle="none", label=label)]

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from optipath.errors import SurfaceError, listed, shown, unknown
-from optipath.plots.color_scale import ColourScale
+from optipath.plots.colors import ColourScale
 from optipath.surfaces.hemisphere.beam import SIDES
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import PROJECTIONS
@@ -121,12 +120,9 @@ def _place(wavelengths: Numbers, wanted: Any) -> int:
     return int(np.argmax(near))
 
 
-class KnownPixels(NamedTuple):
-    """What is known of the pixels of a side. Shape: values, errors (rows, columns)."""
-
-    values: Numbers
-    errors: Numbers
-    unknown: str = "no light"
+_STOKES = "S0", "S1", "S2", "S3"
+_EFFECTS = {"difference": "relative_difference", "ADM": "adm", "MDM": "mdm"}
+"""Methods of `Hemisphere` that compare light with polarization and without."""
 
 
 class PixelQuantity(NamedTuple):
@@ -135,19 +131,55 @@ class PixelQuantity(NamedTuple):
     variable: str
     name: str
     unit: str
-    of: Callable[[SeenSide, Mapping[str, Any]], KnownPixels]
-    scale: Callable[[float], ColourScale]
+    colours: ColourScale | Callable[[float], ColourScale]
     known_to: float = np.inf
     masked: tuple[str, ...] = ()
-    over_wavelengths: bool = False
 
     @property
     def is_bounded(self) -> bool:
         """Whether its colours are those of all values that it can have."""
-        return self.scale in (_share, _axis)
+        return isinstance(self.colours, ColourScale)
 
-    def check_mask(self, mask: Any) -> None:
-        """Refuse what is no mask of it."""
+    @property
+    def over_wavelengths(self) -> bool:
+        """Whether it is of all wavelengths together."""
+        return self.variable in {"ADM", "MDM"}
+
+    def scale(self, largest: float) -> ColourScale:
+        """Return its colours, which end at the largest number where it has no end of its own."""
+        return self.colours if isinstance(self.colours, ColourScale) else self.colours(largest)
+
+    @property
+    def label(self) -> str:
+        """What it is, with its unit."""
+        return f"{self.name} ({self.unit})" if self.unit else self.name
+
+    def known(
+        self, seen: SeenSide, known_to: float | None, mask: Mapping[str, Any] | None
+    ) -> tuple[Numbers, str]:
+        """Return the pixels (rows, columns) of a side, and why those that are NaN are not known."""
+        self._check_mask(mask)
+        measured, why = seen.measured, "no light"
+        if self.variable in _STOKES:
+            result, at = measured.stokes(seen.source), _STOKES.index(self.variable)
+            value, error = (seen.per_steradian(e.values[..., at]) for e in (result, result.se))
+        elif self.variable in _EFFECTS:
+            result = getattr(measured, _EFFECTS[self.variable])(seen.side, **mask or {})
+            place = (..., seen.place) if "wavelength" in result.dims else ...
+            value, error = (100.0 * each.values[place] for each in (result, result.se))
+            why = f"masked; seen are pixels of {result.attrs['mask']}"
+        else:
+            result = getattr(measured, self.variable.lower())(seen.source)
+            unit = float(np.degrees(1.0)) if self.variable == "AoP" else 1.0
+            value, error = (unit * seen.pixels(each.values) for each in (result, result.se))
+        limit = self.known_to if known_to is None else known_to
+        if np.isinf(limit):
+            return value, why
+        # An error that is not known is one of too little light.
+        value = np.where(error <= limit, value, np.nan)
+        return value, f"{why}, or not known to {limit:g}{self.unit}"
+
+    def _check_mask(self, mask: Any) -> None:
         if mask is None:
             return
         if not self.masked:
@@ -159,84 +191,24 @@ class PixelQuantity(NamedTuple):
         if faults := [fault for key in mask for fault in unknown("mask", key, self.masked)]:
             raise SurfaceError(*faults)
 
-    @property
-    def label(self) -> str:
-        """What it is, with its unit."""
-        return f"{self.name} ({self.unit})" if self.unit else self.name
 
-    def known(
-        self, seen: SeenSide, known_to: float | None, mask: Mapping[str, Any] | None
-    ) -> KnownPixels:
-        """Return what is known of the pixels of a side."""
-        limit = self.known_to if known_to is None else known_to
-        self.check_mask(mask)
-        result = self.of(seen, mask or {})
-        if np.isinf(limit):
-            return result
-        # An error that is not known is one of too little light.
-        values = np.where(result.errors <= limit, result.values, np.nan)
-        return result._replace(
-            values=values, unknown=f"{result.unknown}, or not known to {limit:g}{self.unit}"
-        )
-
-
-def _component(number: int, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
-    result = seen.measured.stokes(seen.source)
-    value, error = result.values[..., number], result.se.values[..., number]
-    return KnownPixels(seen.per_steradian(value), seen.per_steradian(error))
-
-
-def _state(name: str, unit: float, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
-    result = getattr(seen.measured, name)(seen.source)
-    return KnownPixels(unit * seen.pixels(result.values), unit * seen.pixels(result.se.values))
-
-
-def _effect(name: str, seen: SeenSide, mask: Mapping[str, Any]) -> KnownPixels:
-    result = getattr(seen.measured, name)(seen.side, **mask)
-    place = (..., seen.place) if "wavelength" in result.dims else ...
-    value, error = (100.0 * each.values[place] for each in (result, result.se))
-    return KnownPixels(value, error, f"masked; seen are pixels of {result.attrs['mask']}")
-
-
-def _share(_largest: float) -> ColourScale:
-    return ColourScale.share()
-
-
-def _axis(_largest: float) -> ColourScale:
-    return ColourScale.axis()
-
-
-_light, _signed = ColourScale.light, ColourScale.signed_light
-_dop, _dolp = partial(_state, "dop", 1.0), partial(_state, "dolp", 1.0)
-_aop = partial(_state, "aop", float(np.degrees(1.0)))
-_difference = partial(_effect, "relative_difference")
-_adm, _mdm = partial(_effect, "adm"), partial(_effect, "mdm")
 _MASK = "brighter_than", "noise", "known_to"
-_OVER_ALL: dict[str, Any] = {"masked": _MASK, "over_wavelengths": True}
+_SHARE = ColourScale.share()
 _ALL = (
-    PixelQuantity("S0", "S0", "1/sr", partial(_component, 0), _light),
-    *(
-        PixelQuantity(f"S{at}", f"S{at}", "1/sr", partial(_component, at), _signed)
-        for at in (1, 2, 3)
-    ),
-    PixelQuantity("DoP", "degree of polarisation", "", _dop, _share, 0.1),
-    PixelQuantity("DoLP", "degree of linear polarisation", "", _dolp, _share, 0.1),
-    PixelQuantity("AoP", "angle of polarisation", "°", _aop, _axis, 10.0),
-    PixelQuantity(
-        "difference", "S0 / U - 1", "%", _difference, ColourScale.signed, masked=_MASK[:1]
-    ),
-    PixelQuantity("ADM", "mean of |S0 - U| / U", "%", _adm, ColourScale.share, **_OVER_ALL),
-    PixelQuantity("MDM", "largest |S0 - U| / U", "%", _mdm, ColourScale.share, **_OVER_ALL),
+    PixelQuantity("S0", "S0", "1/sr", ColourScale.light),
+    *(PixelQuantity(name, name, "1/sr", ColourScale.signed_light) for name in _STOKES[1:]),
+    PixelQuantity("DoP", "degree of polarisation", "", _SHARE, 0.1),
+    PixelQuantity("DoLP", "degree of linear polarisation", "", _SHARE, 0.1),
+    PixelQuantity("AoP", "angle of polarisation", "°", ColourScale.cyclic(), 10.0),
+    PixelQuantity("difference", "S0 / U - 1", "%", ColourScale.signed, masked=_MASK[:1]),
+    PixelQuantity("ADM", "mean of |S0 - U| / U", "%", ColourScale.share, masked=_MASK),
+    PixelQuantity("MDM", "largest |S0 - U| / U", "%", ColourScale.share, masked=_MASK),
 )
 QUANTITIES = {each.variable: each for each in _ALL}
 
 
 def quantity_of(name: Any, known: Collection[str]) -> PixelQuantity:
-    """Return the quantity of a name, one of those that are known.
-
-    >>> quantity_of("AoP", QUANTITIES).label
-    'angle of polarisation (°)'
-    """
+    """Return the quantity of a name, one of those that are known."""
     if faults := unknown("quantity", name, known):
         raise SurfaceError(*faults)
     return QUANTITIES[name]

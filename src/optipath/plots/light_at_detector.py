@@ -149,12 +149,7 @@ def quantities_at(
 
 
 def reads_of(path: PathGraph, end: str) -> str:
-    """Return what an end of a path reads.
-
-    >>> import optipath as op
-    >>> reads_of(op.Source() >> op.Detector(reads="linear"), "detector")
-    'linear'
-    """
+    """Return what an end of a path reads."""
     return str(path.graph.nodes[end]["element"].reads)
 
 
@@ -188,29 +183,31 @@ class AlongAxis(NamedTuple):
     default: float | None = None
 
     @property
-    def labels(self) -> tuple[str, ...]:
-        """What it is called, the longest wording first.
+    def short(self) -> str:
+        """What it is called, with its unit."""
+        return self.name + self._in_unit
+
+    @property
+    def label(self) -> str:
+        """What it is called, and what it is, where that is short.
 
         >>> import numpy as np
-        >>> AlongAxis("theta", "deg", np.zeros(2), "angle of incidence, inside").labels
-        ('theta: angle of incidence, inside (°)', 'theta: angle of incidence (°)', 'theta (°)')
+        >>> AlongAxis("theta", "deg", np.zeros(2), "angle of incidence, inside; of s").label
+        'theta: angle of incidence, inside (°)'
         """
-        unit = "" if self.unit in {"", "1"} else f" ({_SIGNS.get(self.unit, self.unit)})"
-        whats = [self.help, self.help.partition(";")[0], self.help.partition(",")[0]]
-        stored = [what for what in dict.fromkeys(whats) if 0 < len(what) <= _LONGEST]
-        said = [what if what.startswith(self.name) else f"{self.name}: {what}" for what in stored]
-        return (*(f"{each}{unit}" for each in said), f"{self.name}{unit}")
+        whats = (self.help.partition(mark)[0] for mark in ";,")
+        what = next((each for each in whats if 0 < len(each) <= _LONGEST), "")
+        if not what:
+            return self.short
+        return (what if what.startswith(self.name) else f"{self.name}: {what}") + self._in_unit
+
+    @property
+    def _in_unit(self) -> str:
+        return "" if self.unit in {"", "1"} else f" ({_SIGNS.get(self.unit, self.unit)})"
 
     @property
     def default_text(self) -> str:
-        """The value by default with its unit, to four digits; empty where there is none.
-
-        >>> import numpy as np
-        >>> AlongAxis("theta", "deg", np.zeros(2), default=56.30993).default_text
-        '56.31°'
-        """
-        if self.default is None:
-            return ""
+        """The value by default with its unit, to four digits."""
         sign = _SIGNS.get(self.unit, self.unit)
         return f"{self.default:.4g}{'' if sign == '°' else ' '}{sign}".rstrip()
 
@@ -240,11 +237,7 @@ class FineSteps(NamedTuple):
     resolved: bool
 
     def told(self, name: str) -> str:
-        """Return what is to be said where lines are not near.
-
-        >>> FineSteps(np.zeros(721), np.zeros((721, 1)), resolved=False).told("wavelength")
-        'it changes faster with wavelength than 721 points tell; give values in a smaller range'
-        """
+        """Return what is to be said where lines are not near."""
         if self.resolved:
             return ""
         count = len(self.values)

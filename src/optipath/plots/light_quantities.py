@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, shown, unknown
 from optipath.light.quantities import QUANTITIES, LightQuantity
-from optipath.plots.color_scale import ColourScale
+from optipath.plots.colors import ColourScale
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -47,11 +47,6 @@ class DrawnQuantity(NamedTuple):
         return f"{self.name} (°)" if self.unit == "°" else self.name
 
     @property
-    def limits(self) -> tuple[float, float] | None:
-        """Its ends, where it has some."""
-        return self.light.limits
-
-    @property
     def period(self) -> float | None:
         """After how many degrees an angle is the same again."""
         return None if self.light.period is None else np.degrees(self.light.period)
@@ -68,19 +63,15 @@ class DrawnQuantity(NamedTuple):
     def colours(self, numbers: Numbers) -> ColourScale:
         """Return the colours of some numbers: in order, apart from 0, or round in a circle."""
         if self.period:
-            return ColourScale.axis() if self.name == "AoP" else ColourScale.phase()
+            return ColourScale.cyclic(self.period / 2.0)
         finite = numbers[np.isfinite(numbers)]
-        low, high = self.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, None)
+        low, high = self.light.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, None)
         largest = high or float(np.max(np.abs(finite), initial=0.0)) or 1.0
         return ColourScale.signed(largest) if low < 0.0 else ColourScale.share(largest)
 
 
 def drawn_quantities(names: Any) -> list[DrawnQuantity]:
-    """Return the quantities of some names, which may be written in small letters.
-
-    >>> [each.label for each in drawn_quantities(("s0", "AoP"))]
-    ['S0: intensity', 'AoP: angle of polarisation (°)']
-    """
+    """Return the quantities of some names, which may be written in small letters."""
     argument = [names] if isinstance(names, str) else names
     if not isinstance(argument, (list, tuple)) or not argument:
         raise OptipathError(

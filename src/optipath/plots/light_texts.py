@@ -21,11 +21,7 @@ MOST = len(LINES)
 
 
 def known_light(light: Any) -> Light:
-    """Return what is a light, with numbers that are known.
-
-    >>> known_light(Light([1.0, 0.0, 0.0, 1.0])).shape
-    ()
-    """
+    """Return what is a light, with numbers that are known."""
     if not isinstance(light, Light):
         raise OptipathError(
             f"{shown(light)} is no light; give a Light, as path.trace() returns it or "
@@ -36,11 +32,7 @@ def known_light(light: Any) -> Light:
 
 
 def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
-    """Return one or several lights by their names.
-
-    >>> [*lights_to_draw(Light([[1.0, 0.0, 0.0, 1.0], [1.0, 1.0, 0.0, 0.0]]))]
-    ['light[0]', 'light[1]']
-    """
+    """Return one or several lights by their names."""
     if isinstance(light, Mapping):
         if labels is not None:
             raise OptipathError("labels are for a batch; a mapping has names already")
@@ -101,25 +93,13 @@ def digits(value: float, count: int = 4) -> str:
 
 
 def intensity_text(light: Light) -> str:
-    """Return the intensity of one light.
-
-    >>> import optipath as op
-    >>> intensity_text(op.Light([0.5, 0.0, 0.0, 0.0]))
-    'S0 = 0.5'
-    """
+    """Return the intensity of one light."""
     intensity = float(light.intensity)
     return "S0 is not read" if np.isnan(intensity) else f"S0 = {digits(intensity)}"
 
 
 def no_ellipse(light: Light) -> str:
-    """Return why one light has no ellipse; nothing where it has one.
-
-    >>> import optipath as op
-    >>> no_ellipse(op.Light([1.0, 0.0, 0.0, 0.0])), no_ellipse(op.Light([0.0, 0.0, 0.0, 0.0]))
-    ('unpolarised', 'dark')
-    >>> no_ellipse(op.Light([1.0, np.nan, np.nan, np.nan]))
-    'S1, S2 and S3 are not read'
-    """
+    """Return why one light has no ellipse; nothing where it has one."""
     numbers = np.asarray(light.stokes, float)
     if unread := [f"S{place}" for place in range(4) if np.isnan(numbers[place])]:
         return f"{listed(unread)} {'is' if len(unread) == 1 else 'are'} not read"
@@ -150,12 +130,7 @@ def state_text(light: Light) -> str:
 
 
 def figures_text(light: Light) -> str:
-    """Return the figures that one light has: intensity, DoP, AoP and the ratio of its axes.
-
-    >>> import optipath as op
-    >>> figures_text(op.Light([2.0, 0.0, 0.6, 0.8]))
-    'S0 = 2, DoP = 0.5, AoP = 45°, b/a = 0.5'
-    """
+    """Return the figures that one light has: intensity, DoP, AoP and the ratio of its axes."""
     messages = [intensity_text(light)]
     if not np.isnan(light.dop):
         messages.append(f"DoP = {digits(float(light.dop))}")
@@ -167,12 +142,7 @@ def figures_text(light: Light) -> str:
 
 
 def angle_text(light: Light) -> str:
-    """Return the angle of polarisation of one light in degrees.
-
-    >>> import optipath as op
-    >>> angle_text(op.Light([1.0, 0.0, 1.0, 0.0]))
-    '45°'
-    """
+    """Return the angle of polarisation of one light in degrees."""
     return f"{digits(np.degrees(float(light.aop)))}°"
 
 

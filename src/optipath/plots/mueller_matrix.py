@@ -10,8 +10,7 @@ from matplotlib.patches import Patch, Rectangle
 from optipath.errors import OptipathError, shown
 from optipath.light.mueller import Mueller
 from optipath.plots.axes import own_axes
-from optipath.plots.color_scale import ColourScale
-from optipath.plots.colors import HATCHED, INK
+from optipath.plots.colors import HATCHED, INK, ColourScale
 from optipath.plots.light_texts import digits
 from optipath.plots.text import head, is_wide, key_below
 from optipath.values.jax_values import check_known, known
@@ -118,9 +117,5 @@ def _draw_cell(ax: Axes, row: int, column: int, value: float, scale: ColourScale
 
 
 def _cell_text(value: float) -> str:
-    """Return a number of a cell, by three decimals, or by its power of ten where it is small.
-
-    >>> [_cell_text(value) for value in (1.0, 0.5, 0.12345, 0.0)]
-    ['1', '0.5', '0.123', '0']
-    """
+    """Return a number of a cell, by three decimals, or by its power of ten where it is small."""
     return digits(value, 1) if 0.0 < abs(value) < 5e-4 else digits(round(value, 3), 4)

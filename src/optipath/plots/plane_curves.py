@@ -13,8 +13,8 @@ from optipath.errors import OptipathError, SurfaceError
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.quantities import QUANTITIES as OF_LIGHT
-from optipath.plots.axes import own_axes
-from optipath.plots.colors import DASHES, LINES, positive
+from optipath.plots.axes import own_axes, positive
+from optipath.plots.colors import DASHES, LINES
 from optipath.plots.hemisphere_side import SeenSide, quantity_of
 from optipath.surfaces.facet_model import frame_along
 from optipath.surfaces.hemisphere.hemisphere import ROUNDED

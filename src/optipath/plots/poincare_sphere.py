@@ -19,8 +19,7 @@ from optipath.errors import OptipathError, shown
 from optipath.paths.energy import lights_along
 from optipath.paths.path_graph import PathGraph
 from optipath.plots.axes import own_lines
-from optipath.plots.color_scale import ColourScale
-from optipath.plots.colors import FAINT, INK, LINES
+from optipath.plots.colors import FAINT, INK, LINES, ColourScale
 from optipath.plots.labels import Label, place_labels
 from optipath.plots.light_at_detector import START, axis_of, fine_steps, varied
 from optipath.plots.light_texts import figures_text, known_light, no_ellipse, state_text
@@ -97,56 +96,43 @@ def poincare(
         raise OptipathError(
             "by and label belong together: give both, as by=angles, label='delta (deg)', or none"
         )
-    values = None if by is None else _values(by, light)
+    values = None
+    if by is not None:
+        values = array_of("by", by, OptipathError)
+        there = values.dtype.kind in "iuf" and light.ndim and values.shape == light.shape
+        if not (there and np.isfinite(values).all()):
+            raise OptipathError(
+                f"by is {shown(by)}, and light has the shape {light.shape}; give a finite number "
+                "for each light of a trail, in the unit that label says"
+            )
+        values = values.astype(float)
     ax = sphere_axes(ax, (5.4, 5.6) if values is None else (6.4, 5.6))
     points = np.atleast_2d(sphere_point(light))
     colours = middles = np.tile(to_rgba(LINES[0]), (len(points), 1))
     if values is not None:
         scale = ColourScale.ordered(float(values.min()), float(values.max()))
         colour_of = ScalarMappable(scale.norm, scale.colours)
-        figure: Any = ax.figure
-        figure.colorbar(colour_of, ax=ax, label=label, shrink=0.7)
+        ax.figure.figure.colorbar(colour_of, ax=ax, label=label, shrink=0.7)
         colours = colour_of.to_rgba(values)
         middles = colour_of.to_rgba(0.5 * (values[1:] + values[:-1]))
-    draw_steps(ax, points[:-1], points[1:], middles[: len(points) - 1], linewidths=1.4)
-    there = np.isfinite(points).all(axis=1)
-    few = len(points) <= _FEW
-    draw_points(ax, points[there], colours[there], 5.5 if few else 3.5)
+    _draw_steps(ax, points[:-1], points[1:], middles[: len(points) - 1], linewidths=1.4)
+    places = np.flatnonzero(np.isfinite(points).all(axis=1))
+    _draw_points(ax, points[places], colours[places], 5.5 if len(points) <= _FEW else 3.5)
     if not light.ndim:
         head(ax, f"{state_text(light)}\n{figures_text(light)}")
-    elif not there.all():
-        missing = np.count_nonzero(~there)
+    elif len(places) < light.size:
+        missing = light.size - len(places)
         head(ax, f"{missing} of {light.size} have no point: dark, or not read")
-    key_below(ax, side_keys(points[there]))
-    if values is None and light.ndim and there.any():
-        places = np.flatnonzero(there)
+    key_below(ax, _side_keys(points[places]))
+    if values is None and light.ndim and len(places):
         few = len(places) <= _FEW
         names = [str(place) for place in places] if few else ["first", "last"]
-        named = points[places if few else places[[0, -1]]]
-        name_points(ax, on_paper(ax, named), names)
+        name_points(ax, _on_paper(ax, points[places if few else places[[0, -1]]]), names)
     return ax
 
 
-def _values(by: Any, light: Light) -> Numbers:
-    """Return the number of each light of a trail."""
-    values = array_of("by", by, OptipathError)
-    there = values.dtype.kind in "iuf" and light.ndim and values.shape == light.shape
-    if not (there and np.isfinite(values).all()):
-        raise OptipathError(
-            f"by is {shown(by)}, and light has the shape {light.shape}; give a finite number for "
-            f"each light of a trail, in the unit that label says"
-        )
-    return values.astype(float)
-
-
 def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = None) -> Axes3D:
-    """Draw the light at a detector on the Poincaré sphere, coloured by a parameter.
-
-    >>> import optipath as op
-    >>> ax = parameter_trail(op.load_preset("malus"), "angle", "eye", "0 deg:90 deg:7")
-    >>> [each.get_ylabel() for each in ax.figure.axes if each is not ax]
-    ['angle (°)']
-    """
+    """Draw the light at a detector on the Poincaré sphere, coloured by a parameter."""
     (parameter,) = varied(path, [name], {})
     along, argument = axis_of(path, parameter, values, START)
 
@@ -156,14 +142,13 @@ def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = Non
     def points_at(values: Numbers) -> Numbers:
         return sphere_point(light_at(values))
 
-    message, numbers = "", along.numbers
-    if values is None:
-        fine = fine_steps(argument, points_at(argument), points_at, on_picture=np.asarray)
-        message, numbers = fine.told(name), np.interp(fine.values, argument, numbers)
-        argument = fine.values
-    ax = poincare(light_at(argument), by=numbers, label=along.labels[-1])
-    if message:
-        head(ax, "\n".join(filter(None, (ax.get_title(), message))))
+    if values is not None:
+        return poincare(light_at(argument), by=along.numbers, label=along.short)
+    fine = fine_steps(argument, points_at(argument), points_at, on_picture=np.asarray)
+    numbers = np.interp(fine.values, argument, along.numbers)
+    ax = poincare(light_at(fine.values), by=numbers, label=along.short)
+    if message := fine.told(name):
+        head(ax, f"{ax.get_title()}\n{message}".strip())
     return ax
 
 
@@ -176,17 +161,11 @@ _AXIS = 1.3
 _MARK = "Poincaré sphere"
 """By which a sphere that is there is found again."""
 
-_NAMES = (
-    ("H", (1, 0, 0)),
-    ("V", (-1, 0, 0)),
-    ("D", (0, 1, 0)),
-    ("A", (0, -1, 0)),
-    ("R", (0, 0, 1)),
-    ("L", (0, 0, -1)),
-)
+_AXES = ("S1/S0", "HV"), ("S2/S0", "DA"), ("S3/S0", "RL")
+"""The names of the axes, and of the states at both of their ends."""
 
-_AXES = ("S1/S0", "right", "top"), ("S2/S0", "left", "top"), ("S3/S0", "center", "bottom")
-"""The names of the axes, and on which side of their ends they stand."""
+_SIDES = ("right", "top"), ("left", "top"), ("center", "bottom")
+"""On which side of their ends the names of axes stand."""
 
 
 def sphere_axes(argument: Any, size: tuple[float, float]) -> Axes3D:
@@ -209,15 +188,11 @@ def sphere_axes(argument: Any, size: tuple[float, float]) -> Axes3D:
 
 
 def is_near(points: Numbers) -> npt.NDArray[np.bool_]:
-    """Tell which points (..., 3) are on the near half of the sphere.
-
-    >>> is_near(np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]]))
-    array([ True, False])
-    """
+    """Tell which points (..., 3) are on the near half of the sphere."""
     return np.asarray(points @ _towards_eye() >= -1e-9)
 
 
-def on_paper(ax: Axes3D, points: Numbers) -> Numbers:
+def _on_paper(ax: Axes3D, points: Numbers) -> Numbers:
     """Return where points (..., 3) are seen, in the flat coordinates (..., 2) of the axes."""
     return np.stack(proj3d.proj_transform(*points.T, ax.get_proj())[:2], axis=-1)
 
@@ -249,14 +224,14 @@ def _draw_sphere(ax: Axes3D) -> None:
     ax.add_collection3d(Poly3DCollection([outline], facecolor=_GROUND, zorder=0))
     style: dict[str, Any] = {"color": INK, "zorder": 8, "transform": ax.transData}
     style["path_effects"] = [*HALO]
-    for name, place in _NAMES:
-        point = np.array(place, float)
-        bold = {"weight": "bold", "alpha": 1.0 if is_near(point) else 0.55}
-        ax.text2D(*on_paper(ax, 1.13 * point), name, ha="center", va="center", **bold, **style)
-    for axis, (name, across, up) in zip(np.eye(3), _AXES, strict=True):
+    for axis, (name, states), (across, up) in zip(np.eye(3), _AXES, _SIDES, strict=True):
+        for state, point in zip(states, (axis, -axis), strict=True):
+            bold = {"weight": "bold", "alpha": 1.0 if is_near(point) else 0.55}
+            middle = {"ha": "center", "va": "center"}
+            ax.text2D(*_on_paper(ax, 1.13 * point), state, **middle, **bold, **style)
         ends = np.outer((0.0, _AXIS), axis)
         ax.plot(*ends.T, color=FAINT, linewidth=0.7, linestyle=(0, (2, 3)), zorder=1)
-        where = on_paper(ax, _AXIS * axis)
+        where = _on_paper(ax, _AXIS * axis)
         ax.text2D(*where, name, ha=across, va=up, fontsize="small", **style)
 
 
@@ -270,16 +245,11 @@ _FAR = 0.45
 
 
 def sphere_point(light: Any) -> Numbers:
-    """Return S1, S2 and S3 over S0 (..., 3); NaN where light is dark or has not been read.
-
-    >>> import optipath as op
-    >>> sphere_point(op.Light([2.0, 1.0, 0.0, 0.0]))
-    array([0.5, 0. , 0. ])
-    """
+    """Return S1, S2 and S3 over S0 (..., 3); NaN where light is dark or has not been read."""
     return np.asarray(light.normalized, float)[..., 1:]
 
 
-def draw_points(ax: Axes3D, points: Numbers, colours: Any, size: float) -> None:
+def _draw_points(ax: Axes3D, points: Numbers, colours: Any, size: float) -> None:
     """Draw points on the sphere and within it. Shapes: points (n, 3); colours (n, 4)."""
     near, colours = is_near(points), np.array(colours, float)
     face = np.where(near[:, np.newaxis], colours, 1.0)
@@ -288,7 +258,7 @@ def draw_points(ax: Axes3D, points: Numbers, colours: Any, size: float) -> None:
         ax.scatter(*points.T, facecolors=face, edgecolors=colours, **style)
 
 
-def draw_steps(ax: Axes3D, starts: Numbers, ends: Numbers, colours: Any, **line: Any) -> None:
+def _draw_steps(ax: Axes3D, starts: Numbers, ends: Numbers, colours: Any, **line: Any) -> None:
     """Draw straight lines, fainter on the far half. Shapes: starts, ends (n, 3); colours (n, 4)."""
     there = np.isfinite(starts + ends).all(axis=1) & (starts != ends).any(axis=1)
     near = is_near(np.where(there[:, np.newaxis], starts + ends, 0.0))
@@ -301,12 +271,12 @@ def draw_steps(ax: Axes3D, starts: Numbers, ends: Numbers, colours: Any, **line:
             )
 
 
-def side_keys(points: Numbers, colour: str = INK) -> list[Line2D]:
+def _side_keys(points: Numbers) -> list[Line2D]:
     """Return the key of hollow points, where there are some. Shape: points (n, 3)."""
     if is_near(points).all():
         return []
     mark: dict[str, Any] = {"marker": "o", "markersize": 5.0, "markerfacecolor": "white"}
-    return [Line2D([], [], color=colour, linestyle="none", label="hollow: far half", **mark)]
+    return [Line2D([], [], color=INK, linestyle="none", label="hollow: far half", **mark)]
 
 
 HALO = (withStroke(linewidth=2.5, foreground="white"),)
@@ -378,45 +348,31 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
             )
     ax = sphere_axes(ax, (5.4, 6.2 + 0.12 * len(links)))
     points = np.stack([sphere_point(link.light) for link in links])
-    _draw_links(ax, links, points)
-    states = _states(points)
-    places = np.array([point for point, _ in states]).reshape(-1, 3)
-    draw_points(ax, places, np.tile(to_rgba(LINES[0]), (len(states), 1)), 5.5)
-    keys = [_key(ax, number, link) for number, link in enumerate(links, 1)]
-    message = fitting(ax, _STRAIGHT, "x-small", less=5)
-    line = Line2D([], [], color=FAINT, linestyle=(0, (4, 2)), label=message)
-    key_below(ax, [*keys, line, *side_keys(places)], "x-small")
-    if states:
-        name_points(ax, on_paper(ax, places), [_numbers(numbers) for _, numbers in states])
-    return ax
-
-
-def _draw_links(ax: Axes3D, links: Sequence[LightOnLink], points: Numbers) -> None:
-    """Join the light that enters a node and the light that leaves it."""
+    # Dashed lines from the light that enters a node to that which leaves it.
     pairs = [
         (before, behind)
         for before, link in enumerate(links)
         for behind, other in enumerate(links)
         if link.end and link.end == other.start
     ]
-    starts, ends = np.array(pairs, int).reshape(-1, 2).T
-    colours = np.tile(to_rgba(FAINT), (len(pairs), 1))
+    starts, ends = points[np.array(pairs, int).reshape(-1, 2).T]
     dashes: dict[str, Any] = {"linewidths": 1.2, "linestyles": [(0, (4, 2))]}
-    draw_steps(ax, points[starts], points[ends], colours, **dashes)
-
-
-def _states(points: Numbers) -> list[tuple[Numbers, list[int]]]:
-    """Return points that are apart, each with the numbers of its links."""
-    results: list[tuple[Numbers, list[int]]] = []
+    _draw_steps(ax, starts, ends, np.tile(to_rgba(FAINT), (len(pairs), 1)), **dashes)
+    states: list[tuple[Numbers, list[int]]] = []
     for number, point in enumerate(points, 1):
-        if not np.isfinite(point).all():
-            continue
-        same = [links for other, links in results if np.linalg.norm(other - point) < _SAME]
+        same = [one for other, one in states if np.linalg.norm(other - point) < _SAME]
         if same:
             same[0].append(number)
-        else:
-            results.append((point, [number]))
-    return results
+        elif np.isfinite(point).all():
+            states.append((point, [number]))
+    places = np.array([point for point, _ in states]).reshape(-1, 3)
+    _draw_points(ax, places, np.tile(to_rgba(LINES[0]), (len(states), 1)), 5.5)
+    keys = [_key(ax, _link_text(number, link)) for number, link in enumerate(links, 1)]
+    keys.append(_key(ax, _STRAIGHT, color=FAINT, linestyle=(0, (4, 2))))
+    key_below(ax, [*keys, *_side_keys(places)], "x-small")
+    if states:
+        name_points(ax, _on_paper(ax, places), [_numbers(numbers) for _, numbers in states])
+    return ax
 
 
 def _numbers(links: Sequence[int]) -> str:
@@ -431,10 +387,15 @@ def _numbers(links: Sequence[int]) -> str:
     return ", ".join(texts)
 
 
-def _key(ax: Axes3D, number: int, link: LightOnLink) -> Line2D:
-    """Return the line of the key that names a link, and says why it has no point."""
+def _link_text(number: int, link: LightOnLink) -> str:
+    """Return the number and the name of a link, and why it has no point."""
     start = link.start if link.end and link.leaves == "out" else f"{link.start}.{link.leaves}"
     text = f"{number}  {start} → {link.end or 'away'}"
     if np.isnan(sphere_point(link.light)).any():
         text += f" ({no_ellipse(link.light)})"
-    return Line2D([], [], linestyle="none", label=fitting(ax, text, "x-small", less=5))
+    return text
+
+
+def _key(ax: Axes3D, text: str, **line: Any) -> Line2D:
+    label = fitting(ax, text, "x-small", less=5)
+    return Line2D([], [], label=label, **{"linestyle": "none", **line})

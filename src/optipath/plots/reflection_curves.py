@@ -9,8 +9,9 @@ import numpy as np
 from optipath.elements.fresnel import fresnel_reflection, index_argument
 from optipath.errors import OptipathError, shown
 from optipath.materials.material import Material
-from optipath.plots.axes import fitting_text, label_axes, legend_above, own_axes
+from optipath.plots.axes import own_axes
 from optipath.plots.colors import DASHES, FAINT, INK, LINES
+from optipath.plots.text import head, key_within, label_axes
 from optipath.values.curve_value import CurveValue
 from optipath.values.wavelength import Wavelength
 
@@ -81,18 +82,14 @@ def reflection(
     ax.set_xticks(range(0, 91, 15))
     ax.set_yticks(np.arange(0.0, 1.1, 0.2))
     ax.grid(visible=True, alpha=0.3)
-    label_axes(
-        ax,
-        ["angle of incidence (°)", "incidence (°)"],
-        ["reflectance, degree of polarisation", "reflectance, DoLP", "R, DoLP"],
-    )
-    fitting_text(ax.set_title("", fontsize="medium"), message, ax.get_window_extent().width)
-    legend_above([ax], lines)
+    label_axes(ax, "angle of incidence (°)", "reflectance, degree of polarisation")
+    head(ax, message)
+    key_within([ax], lines)
     return ax
 
 
-def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float, list[str]]:
-    """Return the index behind, that in front, and titles that say both."""
+def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float, str]:
+    """Return the index behind, that in front, and a title that says both."""
     arguments = {"index": index, "outside": outside}
     media = {name: _medium(name, one) for name, one in arguments.items()}
     depending = [
@@ -136,8 +133,7 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
     for message, (name, argument) in zip(messages, arguments.items(), strict=True):
         own = at if name in depending else ""
         names.append(f"{argument.strip()}{own}, {message}" if _is_name(argument) else message)
-    long = " in ".join(names)
-    return behind, front.real, [f"reflection: {long}", long, " in ".join(messages)]
+    return behind, front.real, f"reflection: {' in '.join(names)}"
 
 
 def _medium(name: str, argument: Any) -> Material:
@@ -190,12 +186,7 @@ class Reflected(NamedTuple):
 
 
 def reflected(index: complex, incidence: Numbers) -> Reflected:
-    """Return what a boundary reflects at an incidence in radians.
-
-    >>> found = reflected(1.5, np.array(0.0))
-    >>> print(found.s.round(3), found.dolp.round(3))
-    0.04 0.0
-    """
+    """Return what a boundary reflects at an incidence in radians."""
     mean, half, _, _ = fresnel_reflection(index, np.cos(incidence), np.sin(incidence))
     with np.errstate(invalid="ignore", divide="ignore"):
         dolp = np.abs(half) / np.where(mean > 0.0, mean, np.nan)
@@ -203,11 +194,7 @@ def reflected(index: complex, incidence: Numbers) -> Reflected:
 
 
 def marked_angles(index: complex) -> dict[str, float]:
-    """Return the angles of a reflection that have names, in radians.
-
-    >>> {name: round(float(np.degrees(each)), 2) for name, each in marked_angles(1 / 1.5).items()}
-    {"Brewster's angle": 33.69, 'critical angle': 41.81}
-    """
+    """Return the angles of a reflection that have names, in radians."""
     n = index.real
     if index == 1.0:
         return {}

@@ -14,7 +14,7 @@ from optipath.light.light import Light
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import INK, LINES
 from optipath.plots.light_texts import digits, lights_to_draw
-from optipath.plots.text import draw_key, fitting, is_wide
+from optipath.plots.text import draw_key, fitting, inches_of, is_wide, width_of
 from optipath.values.arrays import array_of
 from optipath.values.jax_values import known
 
@@ -120,14 +120,6 @@ def stokes(
         at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
         size, columns = ("small", 2) if is_wide(ax) else ("x-small", 1)
         draw_key(ax, keys, min(columns, len(keys)), fontsize=size, **at)
-    # As small as it takes for each number to stand by itself.
-    figure: Any = ax.figure.figure
-    figure.draw_without_rendering()  # By which axes have the places of their layout.
-    (left, _), (right, _) = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
-    texts = ax.get_xticklabels()
-    share = _FILLED * (right - left) / max(text.get_window_extent().width for text in texts)
-    if share < 1.0:
-        ax.tick_params(axis="x", labelsize=share * texts[0].get_fontsize())
     return ax
 
 
@@ -173,8 +165,10 @@ def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
         ax.set_xlabel(fitting(ax, legend), fontsize="small")
     ax.set_xticks(range(4), ["\n".join(column) for column in columns])
     ax.tick_params(axis="x", length=0.0)
-    if len(columns[0]) > 1:
-        ax.tick_params(axis="x", labelsize="small" if is_wide(ax) else "xx-small")
+    # As small as it takes for each number to stand by itself.
+    widest = max(width_of(line, 1.0) for column in columns for line in column)
+    size = 10.0 if len(columns[0]) == 1 else 8.33 if is_wide(ax) else 5.79
+    ax.tick_params(axis="x", labelsize=min(size, _FILLED * inches_of(ax)[0] / 4.0 / widest))
 
 
 def _apart(result: Any, argument: Any) -> Any:
@@ -191,13 +185,7 @@ def _number(value: float) -> str:
 
 
 def published_for(published: Any, light: Any, several: Mapping[str, Any]) -> dict[str, Numbers]:
-    """Return published Stokes vectors (4,) by the names of the lights that they belong to.
-
-    >>> import optipath as op
-    >>> light = op.Light([1.0, 0.5, 0.0, 0.0])
-    >>> published_for([1.0, 0.49, 0.0, 0.0], light, {"eye": light})
-    {'eye': array([1.  , 0.49, 0.  , 0.  ])}
-    """
+    """Return published Stokes vectors (4,) by the names of the lights that they belong to."""
     if published is None:
         return {}
     if not isinstance(published, Mapping):
@@ -230,24 +218,14 @@ _PLAIN = range(-3, 5)
 
 
 def without_noise(light: Light) -> Light:
-    """Return light with 0 for what is no more than rounding.
-
-    >>> import optipath as op
-    >>> without_noise(op.load_preset("senarmont").trace()).stokes
-    array([0., 0., 0., 0.])
-    """
+    """Return light with 0 for what is no more than rounding."""
     numbers, floor = known(light.stokes), light.noise[..., np.newaxis]
     noise = (np.abs(numbers) < floor) & np.isfinite(floor)
     return Light.of(np.where(noise, 0.0, numbers), light.frame, measured=True)
 
 
 def power_of_ten(lights: Sequence[Light], others: Iterable[Numbers]) -> int:
-    """Return over which power of ten some Stokes vectors are drawn; 0 where they need none.
-
-    >>> import optipath as op
-    >>> power_of_ten([op.Light([2e-300, 0.0, 0.0, 0.0])], []), power_of_ten([], [np.array([99.0])])
-    (-300, 0)
-    """
+    """Return over which power of ten some Stokes vectors are drawn; 0 where they need none."""
     largest = [float(light.log10_intensity) for light in lights]
     with np.errstate(divide="ignore"):
         largest += [float(np.log10(np.nanmax(np.abs(each), initial=0.0))) for each in others]
@@ -257,13 +235,6 @@ def power_of_ten(lights: Sequence[Light], others: Iterable[Numbers]) -> int:
 
 
 def scaled_to(stokes: Any, power: int) -> Numbers:
-    """Return Stokes vectors over a power of ten.
-
-    >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), -300).round(12)
-    array([ 2.,  0., nan,  1.])
-    """
+    """Return Stokes vectors over a power of ten."""
     numbers = np.asarray(stokes, float)
-    if not power:
-        return numbers
-    with np.errstate(under="ignore"):
-        return np.asarray(numbers * np.exp2(-power * np.log2(10.0)))
+    return numbers * np.exp2(-power * np.log2(10.0)) if power else numbers

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Circle, Polygon, Wedge
-from matplotlib.transforms import Bbox
 
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.medium import Medium
@@ -16,19 +15,33 @@ from optipath.errors import PathError
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.labels import Label, place_labels
-from optipath.plots.scene.drawn_scene import draw_head, draw_turn, outline, set_limits, write_notes
-from optipath.plots.scene.layout import LARGEST_ELLIPSE, angles_in_chain, scene_of
-from optipath.plots.scene.placing import angles_at, has_axis
-from optipath.plots.scene.scene import number, quantity_text, shown_incidence
+from optipath.plots.scene.geometry import (
+    draw_head,
+    draw_turn,
+    fit,
+    outline,
+    prepared_sheet,
+    set_limits,
+    write_notes,
+)
+from optipath.plots.scene.layout import (
+    LARGEST_ELLIPSE,
+    angles_in_chain,
+    quantity_text,
+    scene_of,
+    shown_incidence,
+)
+from optipath.plots.scene.placing import angles_at, has_axis, number
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.transforms import Bbox
 
     from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
-    from optipath.plots.scene.scene import Scene, SceneNode, SceneRay
+    from optipath.plots.scene.layout import Scene, SceneNode, SceneRay
     from optipath.values.precision import Numbers
 
 
@@ -88,22 +101,19 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     widest = max(len(line) for lines in texts.values() for line in lines)
     rows = -(-len(flat.at) // _most(widest, _WIDTH, _POINTS))
     ax = own_axes(ax, (_WIDTH, _ROW * rows + 0.4 if flat.straight else _PLANE))
-    ax.set_axis_off()
-    figure: Any = ax.figure.figure
-    figure.draw_without_rendering()  # Until then nobody knows how large axes are.
-    whole, inch = ax.get_window_extent(), figure.dpi
-    size = _POINTS * float(np.clip(whole.width / inch / _WIDTH, 0.66, 1.1))
+    size, room = prepared_sheet(ax, _POINTS, _WIDTH)
     notes = [_DIALS, *scene.notes]
     if not flat.straight and nearest_symbols(scene, flat) < 2.0 * DIAL:
         notes.append("symbols lie over one another: the picture 'geometry' has this path in space")
-    below = write_notes(ax, notes, 0.85 * size)
-    room = Bbox.from_extents(whole.x0 + 2, below + 3, whole.x1 - 2, whole.y1 - 2)
+    room, inch = write_notes(ax, notes, 0.85 * size, room), ax.figure.figure.dpi
     if flat.straight:
         high = (max(map(len, texts.values())) + 0.7) * 1.3 * size * inch / 72.0
-        most = _most(widest, whole.width / inch, size)
+        most = _most(widest, room.width / inch, size)
         flat = _fit_rows(ax, scene, flat, most, (room, high))
     else:
-        _fit_plane(ax, flat, room)
+        pieces = [np.vstack(ray.pieces) for ray in flat.rays]
+        points = np.concatenate([[*flat.at.values()], *pieces])
+        fit(ax, points, _ASIDE, room, _LONGEST * room.height)
     _draw(ax, scene, flat)
     drawn: list[Any] = [*ax.lines, *ax.patches]
     for line in drawn:
@@ -143,16 +153,6 @@ def _fit_rows(
     first = np.array([room.x0 + step / 2.0, room.y1 - spare - _ABOVE * per_unit])
     set_limits(ax, np.zeros(2), first, per_unit)
     return result
-
-
-def _fit_plane(ax: Axes, flat: FlatSheet, room: Bbox) -> None:
-    """Set limits by which a sheet fills a part of the axes, with room for texts beside it."""
-    points = np.array([*flat.at.values(), *(p for ray in flat.rays for p in np.vstack(ray.pieces))])
-    low, high = points.min(axis=0), points.max(axis=0)
-    wide, tall = high - low + 2.0 * _ASIDE
-    per_unit = min(room.width / wide, room.height / tall, _LONGEST * room.height)
-    middle = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
-    set_limits(ax, (low + high) / 2.0, middle, per_unit)
 
 
 def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:
@@ -296,12 +296,7 @@ _ALWAYS = "angle", "incidence"
 
 
 def values_below(element: Element) -> list[str]:
-    """Return the values of an element that are written below its symbol.
-
-    >>> import optipath as op
-    >>> values_below(op.Retarder(retardance="90 deg", angle=op.Parameter("a", 0.0, bound=True)))
-    ['a = 0 deg', 'retardance 90 deg']
-    """
+    """Return the values of an element that are written below its symbol."""
     domains, result = element.domains(), []
     for name in _FIELDS:
         if name == "angle" and isinstance(element, Medium) and not has_axis(element):

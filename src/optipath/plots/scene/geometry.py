@@ -1,42 +1,36 @@
-"""A path drawn in space, as it is seen from aside."""
+"""A path drawn in space, as seen from a viewpoint: lines, faces, labels."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from itertools import combinations
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon
 from matplotlib.transforms import Bbox
 
-from optipath.errors import OptipathError
-from optipath.errors import shown as said
+from optipath.errors import OptipathError, shown
 from optipath.plots.axes import own_axes
-from optipath.plots.colors import INK
+from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.labels import Label, place_labels
-from optipath.plots.scene.drawn_scene import (
-    View,
-    chosen_view,
-    draw_scene,
-    key_to,
-    set_limits,
-    write_notes,
-)
 from optipath.plots.scene.layout import scene_of
-from optipath.plots.text import draw_key
+from optipath.plots.text import broken, draw_key
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from optipath.paths.path_graph import PathGraph
-    from optipath.plots.scene.scene import Scene
+    from optipath.plots.scene.layout import Scene, SceneAngle, SceneFrame, SceneNode, SceneRay
     from optipath.values.precision import Numbers
 
 
 _SIZE = 8.0, 6.0
-_USUAL = 620.0
-"""The mean of width and height, in hundredths of an inch, at which texts are of 9 points."""
-
-_LONGEST = 0.6
-"""How long a link is drawn at most, of the height or the width."""
+_AROUND, _LONGEST = 0.2, 0.6
+"""What is free around, in links, and how long a link is at most, of the height or the width."""
 
 
 def geometry(
@@ -81,23 +75,20 @@ def geometry(
     scene = scene_of(path, "geometry", **values)
     seen_from = None if view is None else _view_argument(view)
     ax = own_axes(ax, _SIZE)
-    ax.set_axis_off()
-    figure: Any = ax.figure.figure
-    figure.draw_without_rendering()  # Until then nobody knows how large axes are.
-    whole, dots = ax.get_window_extent(), figure.dpi / 100.0
-    size = 9.0 * float(np.clip(np.sqrt(whole.width * whole.height) / dots / _USUAL, 0.62, 1.1))
-    notes = write_notes(ax, scene.notes, 0.85 * size)
+    size, room = prepared_sheet(ax, 9.0, _SIZE[0])
+    room = write_notes(ax, scene.notes, 0.85 * size, room)
     at: dict[str, Any] = {"loc": "lower center", "borderaxespad": 0.0}
-    at["bbox_to_anchor"] = 0.5, (notes - whole.y0 + 2.0) / whole.height
+    at["bbox_to_anchor"] = 0.5, ax.transAxes.inverted().transform((0.0, room.y0))[1]
     looks: dict[str, Any] = {"fontsize": 0.9 * size, "columnspacing": 1.4, "handlelength": 1.6}
     handles = key_to(scene)
     below = draw_key(ax, handles, len(handles), **at, **looks).get_window_extent().y1
-    room = Bbox.from_extents(whole.x0 + 2, below + 4, whole.x1 - 2, whole.y1 - 2)
+    room = Bbox.from_extents(room.x0, below + 4, room.x1, room.y1)
     seen_from = seen_from or chosen_view(scene, room.width / room.height)
     draw_scene(ax, scene, seen_from, size / 9.0)
     lines = [np.asarray(line.get_xydata()) for line in ax.lines]
     faces = [np.asarray(patch.get_path().vertices) for patch in ax.patches]
-    _fit(ax, scene, [*lines, *faces], room)
+    longest = _LONGEST * min(room.width, room.height) / scene.unit
+    fit(ax, np.concatenate([*lines, *faces]), _AROUND * scene.unit, room, longest)
     place_labels(ax, _labels(scene, seen_from, size), lines, room)
     return ax
 
@@ -108,20 +99,8 @@ def _view_argument(view: Any) -> View:
     except (TypeError, ValueError):
         elevation = azimuth = np.nan
     if not np.isfinite([elevation, azimuth]).all():
-        raise OptipathError(f"view is {said(view)}; give elevation and azimuth, as (24, -60)")
+        raise OptipathError(f"view is {shown(view)}; give elevation and azimuth, as (24, -60)")
     return View(elevation, azimuth)
-
-
-def _fit(ax: Axes, scene: Scene, drawn: list[Numbers], room: Bbox) -> None:
-    """Set limits by which what is drawn fills a part of the axes."""
-    points = np.concatenate(drawn)
-    low, high = points.min(axis=0), points.max(axis=0)
-    free = np.array([room.width, room.height])
-    free -= 2.0 * (0.06 * free + 8.0)
-    per_unit = float(np.min(free / np.maximum(high - low, 0.01 * scene.unit)))
-    per_unit = min(per_unit, _LONGEST * min(room.width, room.height) / scene.unit)
-    middle = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
-    set_limits(ax, (low + high) / 2.0, middle, per_unit)
 
 
 def _labels(scene: Scene, view: View, size: float) -> list[Label]:
@@ -136,3 +115,277 @@ _LEADS_SOON = 0.7
 
 ANGLE_INK = "#8b3f71"
 """Of the names of angles: the colour of their arcs, dark enough to read."""
+
+
+X_COLOUR, ELLIPSE, Y_COLOUR, ARC, FACE, LAMP = LINES
+_MIRROR = "#666666"
+
+_FRAME = 0.15
+"""How long x and y of a frame are drawn, of the length of a link."""
+
+_DOTS: Any = (0, (1, 2))
+
+_NORMAL = 0.5
+"""How long a normal is drawn."""
+
+_ARROW_AT, _ARROW = 0.72, (0.085, 0.028)
+"""Where on a ray its arrow points to, and how long and wide it is."""
+
+
+_TURN, _NARROW = (0.065, 0.025), 0.8
+"""The head on an ellipse, and how wide the ellipse is at least, in widths of the head."""
+
+
+def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
+    """Draw all of a scene but its names."""
+    first = len(ax.lines)
+    for plane in scene.planes:
+        _face(ax, view.points(plane.corners), FAINT, 0.09, 1.0)
+    _faces(ax, scene, view)
+    for ray in scene.rays:
+        _ray(ax, scene, ray, view)
+    for angle in scene.angles:
+        _angle(ax, angle, view)
+    for frame in drawn_frames(scene):
+        for axis, colour in zip(frame.axes[:2], (X_COLOUR, Y_COLOUR), strict=True):
+            ends = np.array([frame.at, frame.at + _FRAME * scene.unit * axis])
+            _line(ax, view.points(ends), color=colour, lw=1.4, zorder=5.5)
+    for node in scene.nodes:
+        if node.role in _MARKS:
+            ax.plot(*view.points(node.at), **_MARKS[node.role], ls="", mec=INK, mew=0.9, zorder=7)
+    for line in ax.lines[first:]:
+        line.set_linewidth(weight * line.get_linewidth())
+        line.set_markersize(weight * line.get_markersize())
+
+
+_MARKS: dict[str, dict[str, Any]] = {
+    "source": {"marker": "o", "ms": 8, "mfc": LAMP},
+    "detector": {"marker": "D", "ms": 6.5, "mfc": INK},
+    "dump": {"marker": "s", "ms": 6, "mfc": "white"},
+    "other": {"marker": "o", "ms": 5, "mfc": "white"},
+}
+
+
+def drawn_frames(scene: Scene) -> list[SceneFrame]:
+    """Return the frames that are drawn: those of links, since rays that leave end soon."""
+    leaving = {ray.name for ray in scene.rays if ray.leaves}
+    return [frame for frame in scene.frames if frame.port not in leaving]
+
+
+def key_to(scene: Scene) -> list[Artist]:
+    """Return what a key shows of the lines and faces that are drawn."""
+    s = "surface" in {node.role for node in scene.nodes}
+    results: list[Artist] = [
+        Line2D([], [], color=X_COLOUR, lw=1.6, label="x of a frame" + " (s)" * s),
+        Line2D([], [], color=Y_COLOUR, lw=1.6, label="y" + " (p)" * s),
+    ]
+    if any(_has_ellipse(ray) for ray in scene.rays):
+        results.append(Line2D([], [], color=ELLIPSE, lw=1.4, label="polarisation"))
+    if scene.planes:
+        results.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
+    if any(ray.tap for ray in scene.rays):
+        results.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
+    if any(ray.is_dark and not ray.leaves for ray in scene.rays):
+        results.append(Line2D([], [], color=FAINT, lw=1.0, ls=_DOTS, label="no light"))
+    if any(ray.leaves for ray in scene.rays):
+        results.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
+    return results
+
+
+def _faces(ax: Axes, scene: Scene, view: View) -> None:
+    """Draw surfaces and plates, what is farther away first."""
+    towards = view.sheet[2]
+    standing = [node for node in scene.nodes if node.normal is not None]
+    for node in sorted(standing, key=lambda node: float(node.at @ towards)):
+        colour = {"mirror": _MIRROR, "plate": FAINT}.get(node.role, FACE)
+        points = view.points(outline(scene, node))
+        _face(ax, points, colour, 0.3 if node.role != "plate" else 0.16, 2.0)
+        _line(ax, np.concatenate([points, points[:1]]), color=colour, lw=0.9, zorder=2.1)
+        if node.axis is not None:
+            _line(ax, view.points(axis_line(scene, node)), color=INK, lw=1.3, zorder=4.5)
+        if node.role == "surface":
+            end = node.at + _NORMAL * scene.unit * np.asarray(node.normal)
+            normal = view.points(np.array([node.at, end]))
+            _line(ax, normal, color=FAINT, lw=0.9, ls=(0, (4, 3)), zorder=2.2)
+
+
+def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
+    colour, width = (FAINT, 0.9) if ray.leaves or ray.is_dark else (INK, 1.4)
+    ends = view.points(np.array([ray.tail, ray.head]))
+    dashes: Any = _DOTS if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
+    _line(ax, ends, color=colour, lw=width, ls=dashes, zorder=4.0)
+    way = ends[1] - ends[0]
+    if np.linalg.norm(way) > 0.1 * scene.unit:
+        tip = ends[0] + (1.0 if ray.leaves else _ARROW_AT) * way
+        size = scene.unit * np.array(_ARROW)
+        draw_head(ax, tip, way, size, fc=colour, zorder=4.2)
+    if _has_ellipse(ray):
+        curve = view.points(_ellipse(ray))
+        _line(ax, curve, color=ELLIPSE, lw=1.4, zorder=5.0)
+        if ray.turns:
+            draw_turn(ax, curve, scene.unit, ELLIPSE, zorder=5.05)
+
+
+def draw_head(ax: Axes, tip: Numbers, way: Numbers, size: Numbers, **style: Any) -> None:
+    """Draw the head of an arrow. Shapes: tip, way (2,); size (2,)."""
+    along = way / np.linalg.norm(way)
+    foot, aside = tip - size[0] * along, size[1] * np.array([-along[1], along[0]])
+    ax.add_patch(Polygon([tip, foot + aside, foot - aside], ec="none", **style))
+
+
+def draw_turn(ax: Axes, curve: Numbers, unit: float, colour: str, zorder: float) -> None:
+    """Draw an arrowhead on an ellipse (points, 2) where it is flattest."""
+    size = unit * np.array(_TURN)
+    narrow = np.linalg.svd(curve[:-1] - curve[:-1].mean(axis=0))[1][1]
+    if narrow * np.sqrt(2.0 / len(curve[:-1])) < _NARROW * size[1]:
+        return  # On what looks like a line a head would say that the field goes along it.
+    steps = (curve[2:] - curve[:-2]) / unit
+    # Of a circle the first one, whatever the rounding.
+    place = int(np.argmax(np.linalg.norm(steps, axis=1).round(6)))
+    way = steps[place] / np.linalg.norm(steps[place])
+    tip = curve[place + 1] + 0.5 * size[0] * way
+    draw_head(ax, tip, way, size, fc=colour, gid="turn", zorder=zorder)
+
+
+def _has_ellipse(ray: SceneRay) -> bool:
+    return ray.ellipse is not None and not ray.leaves
+
+
+def _ellipse(ray: SceneRay) -> Numbers:
+    return np.asarray((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
+
+
+def _angle(ax: Axes, angle: SceneAngle, view: View) -> None:
+    if not len(angle.arc):
+        return
+    arc, centre = view.points(angle.arc), view.points(angle.centre)
+    _face(ax, np.concatenate([centre[None], arc]), ARC, 0.22, 3.0)
+    _line(ax, arc, color=ARC, lw=1.5, zorder=5.2)
+    if angle.about == "azimuth":
+        for end in (arc[0], arc[-1]):
+            _line(ax, np.array([centre, end]), color=ARC, lw=0.8, zorder=5.1)
+
+
+def _face(ax: Axes, points: Numbers, colour: str, alpha: float, zorder: float) -> None:
+    ax.add_patch(Polygon(points, fc=colour, ec="none", alpha=alpha, zorder=zorder))
+
+
+def _line(ax: Axes, points: Numbers, **style: Any) -> None:
+    ax.plot(points[:, 0], points[:, 1], solid_capstyle="round", **style)
+
+
+_ELEVATIONS, _AZIMUTHS = (15.0, 24.0, 34.0, 46.0), np.arange(-180.0, 180.0, 15.0)
+"""In degrees; the views among which one is chosen."""
+
+
+class View(NamedTuple):
+    """A direction of a parallel projection; elevation and azimuth in degrees."""
+
+    elevation: float
+    azimuth: float
+
+    @property
+    def sheet(self) -> Numbers:
+        """The directions to the right and up on the sheet, and towards who looks, a row each."""
+        c, s = np.cos(np.radians(self.azimuth)), np.sin(np.radians(self.azimuth))
+        flat, high = np.cos(np.radians(self.elevation)), np.sin(np.radians(self.elevation))
+        right, up = (-s, c, 0.0), (-high * c, -high * s, flat)
+        return np.array([right, up, (flat * c, flat * s, high)])
+
+    def points(self, points: Numbers) -> Numbers:
+        """Return points of space (..., 3) on the sheet (..., 2)."""
+        return np.asarray(points) @ self.sheet[:2].T
+
+
+def chosen_view(scene: Scene, aspect: float) -> View:
+    """Return the view in which nodes and rays are farthest apart, and surfaces are seen best."""
+    views = [View(elevation, float(azimuth)) for elevation in _ELEVATIONS for azimuth in _AZIMUTHS]
+    return max(views, key=lambda view: _merit(scene, view, aspect))
+
+
+def _merit(scene: Scene, view: View, aspect: float) -> float:
+    at = view.points(np.array([node.at for node in scene.nodes]))
+    ends = view.points(np.array([(ray.tail, ray.head) for ray in scene.rays]))
+    width, height = np.ptp(np.concatenate([at, ends.reshape(-1, 2)]), axis=0)
+    size = max(width / aspect, height, 1e-9)
+    # Nodes are far from one another, and from rays that pass them.
+    distances = [float(np.linalg.norm(one - other)) for one, other in combinations(at, 2)]
+    for ray, (tail, head) in zip(scene.rays, ends, strict=True):
+        way = head - tail
+        share = np.clip((at - tail) @ way / max(float(way @ way), 1e-30), 0.0, 1.0)
+        apart = np.linalg.norm(at - tail - np.outer(share, way), axis=1)
+        passed = [node.name not in (ray.start, ray.end) for node in scene.nodes]
+        distances += [*(1.5 * apart[passed])]
+    # Ellipses and surfaces are seen from aside, and rays not along themselves.
+    towards = view.sheet[2]
+    faces = [abs(float(ray.axes[2] @ towards)) for ray in scene.rays]
+    faces += [abs(float(n.normal @ towards)) for n in scene.nodes if n.normal is not None]
+    seen = 0.1 + np.mean(np.minimum(faces, 0.5)) + 0.8 * min(*faces, 0.3)
+    ahead = np.mean([ray.axes[2] @ view.sheet[0] for ray in scene.rays])
+    return float(min(distances, default=size) / size * seen * (1.0 + 0.05 * ahead))
+
+
+_HALF, _RADIUS = 0.3, 0.24
+"""Half the side of a surface, and the radius of a plate, of the length of a link."""
+
+
+def outline(scene: Scene, node: SceneNode) -> Numbers:
+    """Return the outline of a surface or a plate. Shape: returns (points, 3)."""
+    normal, across = np.asarray(node.normal), np.asarray(node.across)
+    along = np.cross(normal, across)
+    if node.role == "plate":
+        angle = np.linspace(0.0, 2.0 * np.pi, 49)[:, np.newaxis]
+        circle = np.cos(angle) * across + np.sin(angle) * along
+        return np.asarray(node.at + _RADIUS * scene.unit * circle)
+    met = [ray.head for ray in scene.rays if ray.end == node.name]
+    met += [ray.tail for ray in scene.rays if ray.start == node.name]
+    # As far as light meets it, and half a side more.
+    half, sides = _HALF * scene.unit, np.array([across, along]).T
+    places = np.array([0.0 * node.at, *(point - node.at for point in met)]) @ sides
+    (left, low), (right, high) = places.min(axis=0) - half, places.max(axis=0) + half
+    corners = [(left, low), (right, low), (right, high), (left, high)]
+    return np.array([node.at + a * across + b * along for a, b in corners])
+
+
+def axis_line(scene: Scene, node: SceneNode) -> Numbers:
+    """Return the line along the axis of a plate. Shape: returns (2, 3)."""
+    reach = 1.3 * _RADIUS * scene.unit * np.asarray(node.axis)
+    return np.array([node.at - reach, node.at + reach])
+
+
+def prepared_sheet(ax: Axes, points: float, usual: float) -> tuple[float, Bbox]:
+    """Return the size of letters, of so many points where axes are as wide as usual, and the room.
+
+    Shape: the room is in pixels.
+    """
+    ax.set_axis_off()
+    figure: Any = ax.figure.figure
+    figure.draw_without_rendering()  # Until then nobody knows how large axes are.
+    whole = ax.get_window_extent()
+    return points * float(np.clip(whole.width / figure.dpi / usual, 0.62, 1.1)), whole.padded(-2.0)
+
+
+def write_notes(ax: Axes, notes: Sequence[str], points: float, room: Bbox) -> Bbox:
+    """Write notes at the lower edge, and return the room above them."""
+    said = broken("; ".join(notes), 0.95 * room.width / ax.figure.figure.dpi, points)
+    style: dict[str, Any] = {"fontsize": points, "color": FAINT, "ha": "center", "va": "bottom"}
+    text = ax.text(0.5, 0.0, said, transform=ax.transAxes, **style)
+    below = text.get_window_extent().y1 + 2.0 if said else room.y0
+    return Bbox.from_extents(room.x0, below, room.x1, room.y1)
+
+
+def fit(ax: Axes, points: Numbers, around: Any, room: Bbox, longest: float) -> None:
+    """Set limits by which points (n, 2) and what is around fill a part of the axes in pixels."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    wide, tall = high - low + 2.0 * around
+    per_unit = min(room.width / wide, room.height / tall, longest)
+    set_limits(ax, (low + high) / 2.0, np.array([room.min, room.max]).mean(axis=0), per_unit)
+
+
+def set_limits(ax: Axes, point: Numbers, pixel: Numbers, per_unit: float) -> None:
+    """Set limits by which a point (2,) lies on a pixel, and a unit is so many pixels long."""
+    whole = ax.get_window_extent()
+    left, bottom = point - (pixel - [whole.x0, whole.y0]) / per_unit
+    ax.set_aspect("equal", adjustable="box")
+    ax.set_xlim(left, left + whole.width / per_unit)
+    ax.set_ylim(bottom, bottom + whole.height / per_unit)

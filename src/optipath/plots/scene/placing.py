@@ -18,7 +18,6 @@ from optipath.elements.vertex_chain import VerticesByAngles, vertices_from_angle
 from optipath.elements.vertices import ChainVertex
 from optipath.kernels.vertex_chain import Event
 from optipath.materials.material import Material
-from optipath.plots.scene.scene import number
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
@@ -40,12 +39,33 @@ _START = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """The axes of the first source, a column each: light goes to the right, y is up."""
 
 
+def number(value: Any) -> float:
+    """Return the number of a value that is known."""
+    return float(Operand(value).numbers())
+
+
 class DrawnLink(NamedTuple):
     """A link where it is drawn. Shapes: tail, head (3,); axes (3, 3)."""
 
     tail: Numbers
     head: Numbers
     axes: Numbers
+
+
+class Posture(NamedTuple):
+    """The frames of the ports of an element; normal, across (3,)."""
+
+    axes: dict[str, Numbers]
+    normal: Numbers | None
+    across: Numbers | None
+    role: str
+    told: bool = True
+
+    def turned(self, basis: Numbers) -> Posture:
+        """Return the same in another basis (3, 3)."""
+        axes = {port: basis @ own for port, own in self.axes.items()}
+        normal, across = (None if v is None else basis @ v for v in (self.normal, self.across))
+        return self._replace(axes=axes, normal=normal, across=across)
 
 
 class Placing:
@@ -57,50 +77,32 @@ class Placing:
         self.postures: dict[str, Posture] = {}
         self.links: dict[Link, DrawnLink] = {}
         self.notes: dict[str, None] = {}
-        self.unit = 1.0
-        self.by_angles = True
-        self._returning: dict[tuple[str, str], tuple[Numbers, Numbers]] = {}
         self._begins: dict[tuple[str, str], Numbers] = {}
-        self._aside: dict[tuple[str, str], int] = {}
-        self._legs = legs_and_chains(self.wiring)
-        self._taps = {*self.wiring.taps}
-        self._fix()
+        for name, element in wiring.elements.items():
+            if axes := _own_axes_of(wiring, name):
+                self.postures[name] = _posture_in_space(element, axes)
+            if isinstance(element, ChainVertex):
+                self.at[name] = _chain_points(element)[int(element.place)]
+        legs, self._lengths = _legs_of_chains(wiring)
+        self.by_angles = not legs
+        self.unit = float(np.median(legs)) if legs else 1.0
         self._follow()
 
     def note(self, sentence: str) -> None:
         """Say once what was chosen."""
         self.notes[sentence] = None
 
-    def _fix(self) -> None:
-        """Place what says itself where it stands."""
-        legs = []
-        for name, element in self.wiring.elements.items():
-            if axes := own_axes_of(self.wiring, name):
-                self.postures[name] = posture_in_space(self.wiring, name, axes)
-            if isinstance(element, ChainVertex):
-                points, place = chain_points(element), int(element.place)
-                self.at[name] = points[place]
-                ends = not self.wiring.self_placed.intersection(self.wiring.graph.successors(name))
-                if isinstance(element.vertices, VerticesByAngles):
-                    if ends:  # What comes behind the chain may stand beside it.
-                        self._part_returning(name, self.postures[name])
-                else:
-                    around = points[place - 1 : place + 2]
-                    legs += [*np.linalg.norm(np.diff(around, axis=0), axis=1)]
-        if legs:
-            self.unit, self.by_angles = float(np.median(legs)), False
-
     def _follow(self) -> None:
         """Draw link after link, forwards where that can be, else backwards to other sources."""
         left = sorted(
             self.wiring.graph.edges(keys=True),
-            key=lambda link: (self.wiring.order.get((link[0], link[2][0]), 0), link in self._taps),
+            key=lambda e: (self.wiring.order.get((e[0], e[2][0]), 0), e in self.wiring.taps),
         )
         while left:
             forwards = [link for link in left if link[0] in self.at]
             backwards = [each for each in left if each[0] not in self.at and each[1] in self.at]
             # What comes back goes where there is room, and so comes last.
-            onwards = [link for link in forwards if (link[0], link[2][0]) not in self._returning]
+            onwards = [link for link in forwards if not self._comes_back(link[0], link[2][0])]
             if onwards or (forwards and not backwards):
                 link = (onwards or forwards)[0]
                 self.links[link] = self._forwards(link)
@@ -127,35 +129,32 @@ class Placing:
         self.at[name] = at
         if name not in self.postures:
             usual = posture_of(self.wiring.elements[name])
-            basis = axes @ usual.axes[port].T
-            self.postures[name] = usual._replace(
-                axes={p: basis @ own for p, own in usual.axes.items()},
-                normal=None if usual.normal is None else basis @ usual.normal,
-                across=None if usual.across is None else basis @ usual.across,
-            )
-        posture = self.postures[name]
-        if not posture.told:
+            self.postures[name] = usual.turned(axes @ usual.axes[port].T)
+        if not self.postures[name].told:
             self.note(
                 f"schematic: nothing says by which angle '{name}' turns light; drawn at 45 deg"
             )
-        self._part_returning(name, posture)
 
-    def _part_returning(self, name: str, posture: Posture) -> None:
-        """Let light that comes back along its own way begin beside where it arrived."""
-        for enters, leaves in (("in", "reflected"), ("in", "out")):
-            if not {enters, leaves} <= posture.axes.keys():
-                continue
-            arriving, returning = posture.axes[enters], posture.axes[leaves]
-            if np.linalg.norm(arriving[:, 2] + returning[:, 2]) < 1e-6:
-                self._returning[name, leaves] = arriving[:, 1], returning[:, 2]
-                self.note(f"light that '{name}' sends back is drawn beside the way it came")
+    def _comes_back(self, name: str, port: str) -> bool:
+        """Return whether light leaves a port along the way on which it arrived."""
+        element, axes = self.wiring.elements[name], self.postures[name].axes
+        if isinstance(element, ChainVertex):
+            # What comes behind a chain of angles may stand beside it.
+            following = self.wiring.self_placed.intersection(self.wiring.graph.successors(name))
+            if following or not isinstance(element.vertices, VerticesByAngles):
+                return False
+        if port not in {"reflected", "out"} or "in" not in axes:
+            return False
+        return bool(np.linalg.norm(axes["in"][:, 2] + axes[port][:, 2]) < 1e-6)
 
     def tail_of(self, name: str, port: str) -> Numbers:
-        """Return where light begins that leaves a port. Shape: returns (3,)."""
-        if (name, port) not in self._returning:
+        """Return where light (3,) begins that leaves a port: beside where it arrived, or there."""
+        if not self._comes_back(name, port):
             return self.at[name]
         if (name, port) not in self._begins:
-            aside, way = self._returning[name, port]
+            self.note(f"light that '{name}' sends back is drawn beside the way it came")
+            axes = self.postures[name].axes
+            aside, way = axes["in"][:, 1], axes[port][:, 2]
             sides = [self.at[name] + _SIDEWAYS * self.unit * each for each in (aside, -aside)]
             free = [self._free(side, way) for side in sides]
             # To where y is, unless another beam or element is there.
@@ -178,7 +177,7 @@ class Placing:
         axes, drawn = self.postures[end].axes[enters], self.links[link]
         if np.linalg.norm(axes[:, 2] - drawn.axes[:, 2]) < 1e-9:
             return axes
-        return drawn.axes @ turn_about_z(self._azimuth(link))
+        return drawn.axes @ _turn_about_z(self._azimuth(link))
 
     def _azimuth(self, link: Link) -> float:
         return number(azimuth_of(self.wiring, link))
@@ -189,40 +188,38 @@ class Placing:
         tail, axes = self.tail_of(start, leaves), self.postures[start].axes[leaves]
         if end in self.at:
             return self._closed(link, tail, axes)
-        fixed = self.postures.get(end)
-        if link in self._taps and fixed is None:
-            axes = self._turned_aside((start, leaves), axes)
+        if link in self.wiring.taps and end not in self.postures:
+            others = [
+                e
+                for e in self.links
+                if e in self.wiring.taps and (e[0], e[2][0]) == (start, leaves)
+            ]
+            axes = axes @ _turn_about_x(_ASIDE[len(others) % len(_ASIDE)])
             self.note("taps, which only read light, are drawn dashed and aside")
-        head = tail + self._legs.get(link, self.unit) * axes[:, 2]
-        self._stand(end, head, enters, axes @ turn_about_z(self._azimuth(link)))
+        head = tail + self._lengths.get(link, self.unit) * axes[:, 2]
+        self._stand(end, head, enters, axes @ _turn_about_z(self._azimuth(link)))
         return DrawnLink(tail, head, axes)
 
     def _backwards(self, link: Link) -> DrawnLink:
         """Draw a link to a node that stands, from one that does not."""
         start, end, (leaves, enters) = link
-        arriving = self.postures[end].axes[enters]
-        axes = arriving @ turn_about_z(-self._azimuth(link))
-        taken = [other for other in self.links if other[1] == end and other[2][1] == enters]
-        if taken and start not in self.postures:
-            axes = self._turned_aside((end, enters), axes)
+        axes = self.postures[end].axes[enters] @ _turn_about_z(-self._azimuth(link))
+        others = [other for other in self.links if (other[1], other[2][1]) == (end, enters)]
+        if others and start not in self.postures:
+            axes = axes @ _turn_about_x(_ASIDE[(len(others) - 1) % len(_ASIDE)])
             self.note(f"lights that meet at '{end}' are drawn from several sides")
         head = self.at[end]
-        tail = head - self._legs.get(link, self.unit) * axes[:, 2]
+        tail = head - self._lengths.get(link, self.unit) * axes[:, 2]
         self._stand(start, tail, leaves, axes)
         return DrawnLink(tail, head, axes)
-
-    def _turned_aside(self, port: tuple[str, str], axes: Numbers) -> Numbers:
-        count = self._aside[port] = self._aside.get(port, 0) + 1
-        return axes @ turn_about_x(_ASIDE[(count - 1) % len(_ASIDE)])
 
     def _closed(self, link: Link, tail: Numbers, axes: Numbers) -> DrawnLink:
         """Draw a link between nodes that stand both."""
         _, end, (_, enters) = link
-        way, along = self.at[end] - tail, axes[:, 2]
+        way, along, posture = self.at[end] - tail, axes[:, 2], self.postures[end]
         length = np.linalg.norm(way)
         if length > 0.0 and np.linalg.norm(way / length - along) < 1e-9:
             return DrawnLink(tail, self.at[end], axes)
-        posture = self.postures[end]
         if posture.normal is not None and posture.role != "plate":
             towards = posture.normal @ along
             distance = posture.normal @ way / towards if abs(towards) > 1e-9 else 0.0
@@ -249,8 +246,8 @@ _STRAIGHT_ON = 1e-12
 """The sine of an angle that is none."""
 
 
-def own_axes_of(wiring: Wiring, name: str) -> dict[str, Numbers]:
-    """Return the axes that ports of a node have in the world. Shape: returns (3, 3)."""
+def _own_axes_of(wiring: Wiring, name: str) -> dict[str, Numbers]:
+    """Return the axes (3, 3) that ports of a node have in the world."""
     element = wiring.elements[name]
     results = {}
     for port in (*element.inputs, *element.outputs):
@@ -261,22 +258,21 @@ def own_axes_of(wiring: Wiring, name: str) -> dict[str, Numbers]:
     return results
 
 
-def posture_in_space(wiring: Wiring, name: str, axes: dict[str, Numbers]) -> Posture:
-    """Return the posture of a node in space, some of whose ports have axes (3, 3) there."""
-    element = wiring.elements[name]
-    usual = posture_of(element)
-    first = next(iter(axes))
-    basis = axes[first] @ usual.axes[first].T if usual.axes else np.eye(3)
-    others = {port: basis @ own for port, own in usual.axes.items() if port not in axes}
-    across = axes[first][:, 0] if usual.role in ("surface", "mirror", "plate") else None
-    normal = None if usual.normal is None else basis @ usual.normal
+def _posture_in_space(element: Element, axes: dict[str, Numbers]) -> Posture:
+    """Return the posture of an element, some of whose ports have axes (3, 3) in the world."""
+    usual, first = posture_of(element), next(iter(axes))
+    turned = usual.turned(axes[first] @ usual.axes[first].T if usual.axes else np.eye(3))
+    normal, across = turned.normal, turned.across
     leaves = [port for port in element.outputs if port in axes]
-    if normal is not None and usual.role != "plate" and "in" in axes and leaves:
+    if isinstance(element, ChainVertex):
+        normal, across = (
+            _normal_of_vertex(element, axes["in"], axes[leaves[0]][:, 2]),
+            axes[first][:, 0],
+        )
+    elif normal is not None and usual.role != "plate" and "in" in axes and leaves:
         normal = _normal(element, leaves[0], axes["in"], axes[leaves[0]][:, 2])
-    elif isinstance(element, ChainVertex):
-        normal = _normal_of_vertex(element, axes["in"], axes[leaves[0]][:, 2])
     message = usual.told or len(axes) > 1
-    return usual._replace(axes={**axes, **others}, normal=normal, across=across, told=message)
+    return Posture({**turned.axes, **axes}, normal, across, usual.role, message)
 
 
 def _normal(element: Element, port: str, arriving: Numbers, leaves: Numbers) -> Numbers:
@@ -323,7 +319,7 @@ def incidence_at(element: Element, posture: Posture) -> float:
     return float(np.arctan2(across, -np.dot(arrives, normal)))
 
 
-def chain_points(element: Any) -> Numbers:
+def _chain_points(element: Any) -> Numbers:
     """Return the points of the chain of a vertex, shape (m + 2, 3)."""
     chain = element.vertices
     if isinstance(chain, VerticesByAngles):
@@ -336,19 +332,19 @@ def chain_points(element: Any) -> Numbers:
     return np.asarray(Operand(chain).numbers(), float)
 
 
-def legs_and_chains(wiring: Wiring) -> dict[Link, float]:
-    """Return the lengths of links before and behind chains of points; of angles they have none."""
+def _legs_of_chains(wiring: Wiring) -> tuple[list[float], dict[Link, float]]:
+    """Return the distances of chains of points, and the lengths of the links before and behind."""
+    legs: list[float] = []
     results: dict[Link, float] = {}
-    for name in wiring.self_placed:
-        element: Any = wiring.elements[name]
-        if isinstance(element.vertices, VerticesByAngles):
-            continue
-        points, place = chain_points(element), int(element.place)
-        for side in (-1, 1):
-            links = _links_beside(wiring, name, behind=side > 0)
-            length = float(np.linalg.norm(points[place + side] - points[place]))
-            results |= dict.fromkeys(links, length / max(len(links), 1))
-    return results
+    for name, element in wiring.elements.items():
+        if isinstance(element, ChainVertex) and not isinstance(element.vertices, VerticesByAngles):
+            points, place = _chain_points(element), int(element.place)
+            for side in (-1, 1):
+                length = float(np.linalg.norm(points[place + side] - points[place]))
+                legs.append(length)
+                links = _links_beside(wiring, name, behind=side > 0)
+                results |= dict.fromkeys(links, length / max(len(links), 1))
+    return legs, results
 
 
 def _links_beside(wiring: Wiring, name: str, *, behind: bool) -> list[Link]:
@@ -372,36 +368,20 @@ _RIGHT = np.pi / 2.0
 _SCHEMATIC = np.pi / 4.0
 
 
-class Posture(NamedTuple):
-    """The frames of the ports of an element, in a basis of its own; normal, across (3,)."""
-
-    axes: dict[str, Numbers]
-    normal: Numbers | None
-    across: Numbers | None
-    role: str
-    told: bool = True
-
-
-def turn_about_x(angle: float) -> Numbers:
+def _turn_about_x(angle: float) -> Numbers:
     """Return the matrix of a turn about x by an angle in radians."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
-def turn_about_z(angle: float) -> Numbers:
+def _turn_about_z(angle: float) -> Numbers:
     """Return the matrix of a turn about z by an angle in radians."""
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def posture_of(element: Element) -> Posture:
-    """Return how the ports of an element stand to one another, by its values alone.
-
-    >>> import optipath as op
-    >>> found = posture_of(op.Interface(1.5, "30 deg"))
-    >>> print(found.axes["in"][:, 2].round(3), found.axes["reflected"][:, 2].round(3))
-    [ 0.    -0.866  0.5  ] [0.    0.866 0.5  ]
-    """
+    """Return how the ports of an element stand to one another, by its values alone."""
     ports = (*element.inputs, *element.outputs)
     if isinstance(element, BoundaryElement):
         return _surface(ports, *angles_at(element), "surface")
@@ -447,7 +427,7 @@ def _surface(ports: tuple[str, ...], front: float, behind: float, role: str) -> 
         "back": behind - _RIGHT,
     }
     outward = angles["reflected"]
-    axes = {port: turn_about_x(angles.get(port, outward)) for port in ports}
+    axes = {port: _turn_about_x(angles.get(port, outward)) for port in ports}
     x, normal, _ = np.eye(3)
     return Posture(axes, normal, x, role)
 
@@ -456,9 +436,7 @@ def _straight(element: Element, ports: tuple[str, ...]) -> Posture:
     axes = {port: np.eye(3) for port in ports}
     if isinstance(element, Terminal):
         return Posture(axes, None, None, "detector" if isinstance(element, Detector) else "dump")
-    if not element.inputs:
-        return Posture(axes, None, None, "source")
-    if element.merges:
-        return Posture(axes, None, None, "other")
+    if not element.inputs or element.merges:
+        return Posture(axes, None, None, "other" if element.inputs else "source")
     x, _, z = np.eye(3)
     return Posture(axes, -z, x, "plate")
