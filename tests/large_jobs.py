@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from optipath.errors import ValueFault
-from optipath.sweeps.jobs import StoredArray, WholeArray
+from optipath.sweeps.store import StoredArray, WholeArray
 
 ROWS, COLUMNS = 4, 3
 

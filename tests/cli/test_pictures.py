@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.cli.chosen import Chosen
 from optipath.cli.plot_command import KINDS, drawn, request_of
+from optipath.cli.preset_command import Chosen
 from optipath.lab import chart
 from optipath.lab import chart as critical_chart
 from optipath.values.text import AxisValues
@@ -165,7 +165,7 @@ def test_several_values_in_a_file_are_refused_and_any_letters_drawn(
 ):
     path = op.Source(op.Parameter("power", np.array([1.0, 2.0]))) >> op.Detector()
     (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
-    several = "parameter 'power' has several values in the file, and a picture is of one"
+    several = "parameter 'power' has several values in the file; give one"
     for kind in kinds:
         asked = f"plot x.toml --kind {kind} --out a.svg"
         assert several in refused(asked)

@@ -14,9 +14,8 @@ import optipath as op
 from chains import ENGINES
 from optipath.light.quantities import QUANTITIES
 from optipath.sweeps import monte_carlo
-from optipath.sweeps.light_figures import difference, figures_of, gradients_of
+from optipath.sweeps.light_figures import UncertainValue, difference, figures_of, gradients_of
 from optipath.sweeps.monte_carlo import DrawnSamples
-from optipath.sweeps.uncertain_value import UncertainValue
 from optipath.values import arrays as memory
 from tables import rows, slow_except
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
+    from optipath.plan.inputs import Inputs
     from optipath.values.parameters import Parameter
     from optipath.values.text import AxisValues
     from optipath.values.use import Use
@@ -33,12 +34,7 @@ RANGES = (
 
 
 def axis_argument(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValues | None:
-    """Return the values that the text of an option stands for.
-
-    >>> from optipath.values.parameters import Parameter
-    >>> axis_argument(Parameter("delta", unit="deg"), "0:90:3", ()).shown.tolist()
-    [0.0, 45.0, 90.0]
-    """
+    """Return the values that the text of an option stands for."""
     # A bare wavelength may be nanometres, micrometres or electronvolts; a file says its units.
     is_shown = isinstance(parameter, Wavelength) or text.lstrip().startswith("@")
     unit = "" if is_shown else parameter.unit
@@ -64,10 +60,10 @@ def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
     return SweepGrid(tuple([sweep_axis(known, name, values) for name, values in axes.items()]))
 
 
-def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable[str]) -> None:
+def refuse_axes(command: str, texts: Mapping[str, str | None], axes: Iterable[str]) -> None:
     """Raise where a command is given several values for a parameter, of which it takes one."""
     faults = [
-        f"{flag(name)} is given several values, {shown(texts[name][-1])}, of which "
+        f"{flag(name)} is given several values, {shown(texts[name])}, of which "
         f"{command} takes one; give one, or write 'optipath run' or 'optipath sweep'"
         for name in axes
     ]
@@ -75,15 +71,13 @@ def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable
         raise ParameterError(*faults)
 
 
-def refuse_arrays(path: PathGraph, axes: Collection[str]) -> None:
-    """Raise where a path has arrays of its own, whose values would each go with one of an axis."""
-    faults = [
-        f"parameter '{name}' has several values in the file; give one by {flag(name)}, or a range"
-        for name, parameter in (path.parameters.items() if axes else ())
-        if name not in axes and isinstance(parameter.default, np.ndarray)
+def array_faults(inputs: Inputs, axes: Collection[str] = ()) -> list[str]:
+    """Return which parameters have several values in the file, which none of an axis go with."""
+    return [
+        f"parameter '{name}' has several values in the file; give one by {flag(name)}"
+        for name, parameter in {**inputs.open, **inputs.bound}.items()
+        if name not in axes and np.ndim(parameter.default) > len(inputs.tails.get(name, ()))
     ]
-    if faults:
-        raise ParameterError(*faults)
 
 
 class NewFile(click.Path):

@@ -1,22 +1,25 @@
-"""``optipath bench``: how fast a preset, or a path of one's own, is on this machine."""
+"""``optipath bench`` and ``optipath accuracy``: how fast and how exact this is."""
 
 from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import asdict
+from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 from rich.table import Table
 
-from optipath.cli.console import JSON, PlainConsole, progress_bar, say_json
+from optipath.cli.arguments import read_text, write
+from optipath.cli.console import JSON, PlainConsole, cell, headed, progress_bar, say, say_json
+from optipath.cli.options import StrictCommand
 from optipath.cli.preset_command import PresetGroup
-from optipath.lab.bench import duration
 from optipath.paths.files.presets import beside, bound_preset, load_preset
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
-    from optipath.cli.chosen import Chosen
+    from optipath.cli.preset_command import Chosen
     from optipath.lab.bench import Report
     from optipath.paths.path_graph import PathGraph
 
@@ -81,6 +84,8 @@ def _opened(chosen: Chosen) -> PathGraph:
 
 
 def _tables(report: Report) -> list[Table]:
+    from optipath.lab.bench import duration  # noqa: PLC0415 - not for every command
+
     once = _table("done once", ["time"])
     for name, milliseconds in report.single.items():
         once.add_row(name, duration(1e-3 * milliseconds))
@@ -90,9 +95,8 @@ def _tables(report: Report) -> list[Table]:
     batches = _table("time a path, by the number of paths", [f"{size:,}" for size in sizes])
     times = defaultdict(list)
     for row in report.batches:
-        times[f"{row['engine']} {row['dtype']} {row['output']}"].append(
-            duration(1e-9 * row["ns_least"])
-        )
+        name = f"{row['engine']} {row['dtype']} {row['output']}"
+        times[name].append(duration(1e-9 * row["ns_least"]))
     for name, cells in times.items():
         batches.add_row(name, *cells)
     paths = report.methods[0]["paths"]
@@ -112,3 +116,49 @@ def _table(title: str, measured: list[str]) -> Table:
 
 
 bench = PresetGroup("bench", _bench, (LARGEST, LONG, ENGINE, THREADS, JSON))
+
+
+SAMPLES = click.Option(
+    ["--samples"],
+    type=click.IntRange(1, 100_000),
+    default=200,
+    help="How many boundaries and angles are drawn in each region.",
+)
+SEARCH = click.Option(
+    ["--search", "generations"],
+    type=click.IntRange(1, 100_000),
+    help="Search for the worst cases instead: so many generations of 1000 boundaries and angles "
+    "for each component in each region; 1000 take about a quarter of an hour.",
+)
+WRITE = click.Option(
+    ["--write", "file"],
+    type=click.Path(dir_okay=False, exists=True, path_type=Path),
+    help="Put the tables into this file, between the lines that mark their place.",
+)
+
+
+def _accuracy(samples: int, generations: int | None, file: Path | None) -> None:
+    """Tell how far each method is from 50-digit references, region by region."""
+    from optipath.lab import tables  # noqa: PLC0415 - an extra
+
+    if generations is None:
+        measure, marks = partial(tables.tables, samples), tables.SAMPLED
+    else:
+        measure, marks = partial(tables.searched_tables, generations), tables.SEARCHED
+    if file is not None:
+        text = read_text(file)
+        # A file without a place for them is told of at once.
+        tables.put_tables(text, [], marks)
+        write(file, tables.put_tables(text, measure(), marks).encode())
+        say(f"wrote {file}")
+        return
+    console = PlainConsole()
+    for table in measure():
+        shown = headed(*table.header, title=table.title, box=None)
+        for row in table.rows:
+            styles = ["bold red" if word.startswith("**") else "" for word in row]
+            shown.add_row(*map(cell, [word.strip("*") for word in row], styles))
+        console.print(shown)
+
+
+accuracy = click.command("accuracy", cls=StrictCommand, params=[SAMPLES, SEARCH, WRITE])(_accuracy)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from optipath.cli.arguments import NewFile, check_place, read_text, write
 from optipath.cli.console import reported_progress, say
+from optipath.cli.options import given_options
 from optipath.cli.plot_command import title_of
 from optipath.cli.preset_command import PresetGroup
 from optipath.paths.files.presets import preset_names
@@ -17,12 +18,8 @@ from optipath.values.files import check_form
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from optipath.cli.chosen import Chosen
-
-    Chart: TypeAlias = Mapping[str, Any]
-    Tell: TypeAlias = Callable[[str, float], object]
-    Keep: TypeAlias = Callable[[dict[str, Any]], object]
-    Measure: TypeAlias = Callable[[Tell, Keep], Chart]
+    from optipath.cli.preset_command import Chosen
+    from optipath.paths.path_graph import PathGraph
 
 
 EVERYWHERE = "all"
@@ -70,108 +67,57 @@ REDRAW = click.Option(
 )
 
 
-def _faults(
-    *,
-    near: tuple[str, ...],
-    quick: bool,
-    peers: Path | None,
-    engines: tuple[str, ...] = (),
-    **_others: Any,
-) -> list[str]:
-    """Return what does not go with ``--near``, a sentence each."""
-    arguments = {"--engine": bool(engines), "--quick": quick, "--peers": peers is not None}
+_CLASHES = {
+    "--near": ("--engine", "--quick", "--peers"),
+    "--from": ("--interface", "--near", "--quick"),
+    "--interface": ("--peers",),
+}
+"""Options of which each excludes others: what is measured, and where from."""
+
+
+def _faults(**_options: Any) -> list[str]:
+    """Return which of the options do not go together, a sentence each."""
+    given = given_options()
     return [
-        f"{name} is for times, and --near measures none; leave one of them out"
-        for name, is_given in arguments.items()
-        if is_given and near
+        f"{one} and {other} do not go together; leave one of them out"
+        for one, others in _CLASHES.items()
+        for other in others
+        if one in given and other in given
     ]
 
 
-def _places(near: tuple[str, ...]) -> tuple[str, ...]:
-    return NEAR if EVERYWHERE in near else near
-
-
-_DOTS = 120.0
-
-
-def _chart(
-    chosen: Chosen,
-    *,
-    out: Path,
-    data: Path | None,
-    engines: tuple[str, ...],
-    quick: bool,
-    near: tuple[str, ...],
-    peers: Path | None,
-) -> None:
+def _chart(chosen: Chosen, **options: Any) -> None:
     """Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it."""
-    path, title = chosen.path(), title_of(chosen)
-
-    def measure(tell: Tell, keep: Keep) -> Chart:
-        # The extra 'chart'.
-        from optipath.lab import chart as lab  # noqa: PLC0415
-        from optipath.lab.peer_times import check_race  # noqa: PLC0415
-
-        if near:
-            return lab.critical_chart(path, title, _places(near), progress=tell, keep=keep)
-        if peers is not None:
-            check_race(read_text(peers), str(peers))
-        effort = lab.QUICK if quick else lab.FULL
-        effort = effort._replace(engines=engines) if engines else effort
-        click.echo(lab.expected(effort), err=True)
-        return lab.path_chart(path, title, effort, tell, keep)
-
-    _measure_and_draw(measure, out, data, peers)
+    _measure_and_draw(chosen.path(), title_of(chosen), **options)
 
 
-def _without_preset(
-    *,
-    interface: bool,
-    source: Path | None,
-    out: Path,
-    data: Path | None,
-    quick: bool,
-    near: tuple[str, ...],
-    peers: Path | None,
-) -> None:
-    context = click.get_current_context()
-    if context.invoked_subcommand is not None:
-        if interface or source:
+def _without_preset(*, interface: bool, source: Path | None, **options: Any) -> None:
+    given = given_options()
+    if click.get_current_context().invoked_subcommand is not None:
+        if {"--interface", "--from"}.intersection(given):
             raise click.UsageError("--interface and --from stand for the preset; leave it out")
-        for name in ("out", "data", "quick", "near", "peers"):
-            if context.get_parameter_source(name) is not click.core.ParameterSource.DEFAULT:
-                raise click.UsageError(f"--{name} stands behind the preset; move it there")
+        if given:
+            raise click.UsageError(f"{given[0]} stands behind the preset; move it there")
         return
-    if interface and source:
-        raise click.UsageError("--interface measures and --from does not; give one of them")
     if not interface and source is None:
         names = ", ".join(preset_names())
         raise click.UsageError(
             f"PRESET is missing; give a file, one of {names}, --interface, or --from"
         )
-    if source and (quick or near):
-        raise click.UsageError("--quick and --near say what is measured; leave them out of --from")
-    if interface and peers:
-        raise click.UsageError("--peers stand beside a path; leave them out of --interface")
-    if faults := _faults(near=near, quick=quick, peers=peers):
+    if faults := _faults():
         raise click.UsageError("; ".join(faults))
-
-    def measure(tell: Tell, keep: Keep) -> Chart:
-        if source:
-            from optipath.lab.chart_file import read_chart  # noqa: PLC0415
-
-            return read_chart(read_text(source), str(source))
-        from optipath.lab import chart as lab  # noqa: PLC0415
-
-        if near:
-            places = _places(near)
-            return lab.critical_chart(None, "one interface", places, progress=tell, keep=keep)
-        return lab.interface_chart(lab.QUICK if quick else lab.FULL, tell, keep)
-
-    _measure_and_draw(measure, out, data, peers)
+    _measure_and_draw(None, "one interface", source=source, **options)
 
 
-def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Path | None) -> None:
+def _measure_and_draw(
+    path: PathGraph | None,
+    title: str,
+    *,
+    out: Path,
+    data: Path | None,
+    peers: Path | None,
+    **options: Any,
+) -> None:
     check_form(out)
     if data is not None and data.absolute() == out.absolute():
         raise click.UsageError(f"--out and --data both write '{out}'; give two files")
@@ -179,13 +125,13 @@ def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Pat
         if file is not None:
             check_place(file)
     from optipath import plots  # noqa: PLC0415 - an extra
-    from optipath.lab.chart_file import chart_text  # noqa: PLC0415
+    from optipath.lab.chart_file import chart_text  # noqa: PLC0415 - ditto
 
     draw, save, interrupted = plots.chart, plots.save, False
     stored: dict[str, Any] = {}
     try:
         with reported_progress() as tell:
-            stored.update(measure(tell, stored.update))
+            stored.update(_measured(path, title, peers, tell, stored.update, **options))
     except KeyboardInterrupt:
         if not stored:
             raise
@@ -195,11 +141,46 @@ def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Pat
     if data is not None:
         write(data, chart_text(stored).encode())
         say(f"wrote {data}")
-    picture = draw(stored, peers=peers)
-    save(picture, out, _DOTS)
+    save(draw(stored, peers=peers), out, _DOTS)
     say(f"wrote {out}")
     if interrupted:
         raise KeyboardInterrupt
+
+
+_DOTS = 120.0
+
+
+def _measured(
+    path: PathGraph | None,
+    title: str,
+    peers: Path | None,
+    tell: Callable[[str, float], object],
+    keep: Callable[[dict[str, Any]], object],
+    *,
+    near: tuple[str, ...],
+    quick: bool,
+    engines: tuple[str, ...] = (),
+    source: Path | None = None,
+) -> Mapping[str, Any]:
+    """Return a chart of a path, or of one interface without a path, or out of a file."""
+    if source is not None:
+        from optipath.lab.chart_file import read_chart  # noqa: PLC0415
+
+        return read_chart(read_text(source), str(source))
+    from optipath.lab import chart as lab  # noqa: PLC0415
+    from optipath.lab.peer_times import check_race  # noqa: PLC0415
+
+    if near:
+        places = NEAR if EVERYWHERE in near else near
+        return lab.critical_chart(path, title, places, progress=tell, keep=keep)
+    effort = lab.QUICK if quick else lab.FULL
+    if path is None:
+        return lab.interface_chart(effort, tell, keep)
+    if peers is not None:
+        check_race(read_text(peers), str(peers))
+    effort = effort._replace(engines=engines) if engines else effort
+    click.echo(lab.expected(effort), err=True)
+    return lab.path_chart(path, title, effort, tell, keep)
 
 
 chart = PresetGroup(

@@ -37,22 +37,23 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 
-_COMMANDS = (
-    "accuracy",
-    "bench",
-    "cache",
-    "chart",
-    "explain",
-    "explore",
-    "materials",
-    "plot",
-    "polarization",
-    "presets",
-    "run",
-    "show",
-    "surface",
-    "sweep",
-)
+_COMMANDS = {
+    "accuracy": "bench",
+    "bench": "bench",
+    "cache": "cache",
+    "chart": "chart",
+    "explain": "run",
+    "explore": "explore",
+    "materials": "materials",
+    "plot": "plot",
+    "polarization": "polarization",
+    "presets": "show",
+    "run": "run",
+    "show": "show",
+    "surface": "surface",
+    "sweep": "sweep",
+}
+"""Which file each command is in."""
 
 
 class _Commands(WholeHelp):
@@ -66,8 +67,9 @@ class _Commands(WholeHelp):
         del ctx
         if cmd_name not in _COMMANDS:
             return None
-        result: click.Command = getattr(import_module(f"optipath.cli.{cmd_name}_command"), cmd_name)
-        return result
+        module = import_module(f"optipath.cli.{_COMMANDS[cmd_name]}_command")
+        command: click.Command = getattr(module, cmd_name)
+        return command
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -220,14 +222,14 @@ def import_own(name: str) -> None:
     """Import a module by its name, from this folder or Python's path, or a file of Python."""
     file = Path(name)
     is_file = file.suffix == ".py"
+    module = file.stem if is_file else name
+    taken = f"--import: a module named {shown(module)} is there already; rename {shown(name)}"
     if is_file and not file.is_file():
         raise PathError(f"--import: there is no file {shown(name)}")
-    module = file.stem if is_file else name
     if not is_file and (file.is_file() or not all(map(str.isidentifier, name.split(".")))):
         raise PathError(
             f"--import takes the name of a module or a file that ends in .py, not {shown(name)}"
         )
-    taken = f"--import: a module named {shown(module)} is there already; rename {shown(name)}"
     if is_file and module in sys.stdlib_module_names:  # Python would import the file for its own.
         raise PathError(taken)
     folder = str((file.parent if is_file else Path()).resolve())
@@ -240,14 +242,11 @@ def import_own(name: str) -> None:
     except (MemoryError, OptipathError):
         raise
     except (Exception, SystemExit) as error:
+        fault = f"{shown(name)} raises {type(error).__name__}: {error}"
         if isinstance(error, ModuleNotFoundError) and error.name in (name, name.partition(".")[0]):
-            raise PathError(
-                f"--import: there is no module {shown(name)} in this folder or on Python's path; "
-                f"give its name, or a file such as folder/my_elements.py"
-            ) from None
-        raise PathError(
-            f"--import: {shown(name)} raises {type(error).__name__}: {error}"
-        ) from error
+            fault = f"there is no module {shown(name)} in this folder or on Python's path; give "
+            fault += "its name, or a file such as folder/my_elements.py"
+        raise PathError(f"--import: {fault}") from error
     finally:
         if folder in sys.path:
             sys.path.remove(folder)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 from contextlib import contextmanager
-from textwrap import wrap
+from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -18,7 +18,7 @@ from rich.text import Text
 from optipath.errors import printable
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
 
 JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
@@ -29,7 +29,6 @@ DIGITS = click.Option(
     help="How many digits printed numbers have; --json has all.",
 )
 
-_HANGING = " " * 4
 _NARROWEST, _WIDEST = 20, 1000
 _COLUMN = 30
 """How wide a column that needs it is on the narrowest terminal."""
@@ -46,17 +45,10 @@ def say_wrapped(text: str) -> None:
 
 
 def wrapped(text: str, width: int, *, whole_words: bool = False) -> str:
-    """Return lines of which those that are longer go on in the next, which is indented.
-
-    >>> print(wrapped("| out --> polariser.in", 20))
-    | out -->
-        polariser.in
-    """
-    keywords: Any = {"break_long_words": not whole_words, "break_on_hyphens": False}
-    lines = (
-        wrap(line, width, subsequent_indent=_HANGING, **keywords) for line in text.splitlines()
-    )
-    return "\n".join("\n".join(parts) for parts in lines)
+    """Return lines of which those that are longer go on in the next, which is indented."""
+    wrapper = TextWrapper(width, subsequent_indent=" " * 4, break_on_hyphens=False)
+    wrapper.break_long_words = not whole_words
+    return "\n".join("\n".join(wrapper.wrap(line)) for line in text.splitlines())
 
 
 def say_json(results: dict[str, Any]) -> None:
@@ -75,12 +67,16 @@ def title(name: str, description: str) -> Text:
     return result.append_text(cell(f": {description}")) if description else result
 
 
-def headed(*headers: str, right: int | None = None, **keywords: Any) -> Table:
-    """Return a table whose columns have these headers, flush right from a number of them on."""
+def headed(
+    *headers: str, rows: Iterable[Iterable[str]] = (), right: int | None = None, **keywords: Any
+) -> Table:
+    """Return a table with headers and rows, flush right from a number of columns on."""
     made = Table(header_style="bold", title_justify="left", title_style="", **keywords)
     for number, header in enumerate(headers):
         is_right = right is not None and number >= right
         made.add_column(cell(header), justify="right" if is_right else "left")
+    for row in rows:
+        made.add_row(*map(cell, row))
     return made
 
 
@@ -113,23 +109,22 @@ class PlainConsole(Console):
 
     def _widest(self, column: Column) -> int:
         options = self.options.update(width=_COLUMN)
-        parts = (column.header, *column.cells)
-        return max(self.measure(part, options=options).maximum for part in parts)
+        parts = [column.header, *column.cells]
+        return max([self.measure(part, options=options).maximum for part in parts])
 
 
 def _stacked(table: Table) -> Iterator[Any]:
     """Yield the rows of a table one under the other, each label above its values."""
-    others = table.columns[1:]
-    headers = [_text(column.header) for column in table.columns[: 2 if len(others) == 1 else 1]]
-    for heading in (_text(table.title or ""), Text(", ").join(filter(None, headers))):
-        if heading:
-            yield heading
-    for label, *values in zip(*(column.cells for column in table.columns), strict=True):
+    first, *others = table.columns
+    alone = len(others) == 1
+    heads = [_text(column.header) for column in table.columns[: 2 if alone else 1]]
+    yield from filter(None, [_text(table.title or ""), Text(", ").join(filter(None, heads))])
+    for label, *values in zip(first.cells, *(column.cells for column in others), strict=True):
         yield _text(label)
         for column, value in zip(others, values, strict=True):
-            header = _text(column.header) if len(others) > 1 else Text()
+            header = _text(column.header)
+            parts = (_text(value),) if alone or not header else (header, ": ", _text(value))
             if _text(value):
-                parts = (header, ": ", _text(value)) if header else (_text(value),)
                 yield Padding(Text.assemble(*parts, overflow="fold"), (0, 0, 0, 2), expand=False)
     if table.caption:
         yield _text(table.caption)
@@ -154,28 +149,21 @@ def say_descriptions(kind: str, descriptions: dict[str, str], *, as_json: bool) 
     if as_json:
         say_json(descriptions)
         return
-    table = headed(kind, "what it is", box=None)
-    for name, description in descriptions.items():
-        table.add_row(cell(name), cell(description))
-    PlainConsole().print(table)
+    PlainConsole().print(headed(kind, "what it is", rows=descriptions.items(), box=None))
 
 
 @contextmanager
 def progress_bar(total: float, *, remaining: bool = False) -> Iterator[Callable[..., None]]:
     """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
-    messages = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
-    left = (TextColumn("left:"), TimeRemainingColumn()) if remaining else ()
+    columns: list[Any] = [TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()]
+    columns += [TextColumn("left:"), TimeRemainingColumn()] if remaining else []
     console = PlainConsole(stderr=True)
     if not console.is_terminal:  # Older versions of rich end even a bar that is not shown.
         yield lambda *_, **_change: None
         return
-    with Progress(*messages, *left, console=console, transient=True) as bar:
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("", total=total)
-
-        def tell(what: str, **change: Any) -> None:
-            bar.update(task, description=what, **change)
-
-        yield tell
+        yield lambda what, **change: bar.update(task, description=what, **change)
 
 
 @contextmanager
@@ -183,11 +171,9 @@ def photon_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     """Show a bar on a terminal."""
     with progress_bar(1.0, remaining=True) as show:
         show(f"{what}: surfaces are made")
-
-        def tell(done: int, total: int) -> None:
-            show(f"{what}: {done:,} of {total:,} photons", completed=done, total=total)
-
-        yield tell
+        yield lambda done, total: show(
+            f"{what}: {done:,} of {total:,} photons", completed=done, total=total
+        )
 
 
 _STEPS = 10
@@ -196,16 +182,13 @@ _STEPS = 10
 @contextmanager
 def reported_progress() -> Iterator[Callable[[str, float], None]]:
     """Tell of progress; what is yielded takes what is being done, and the share that is done."""
-    if PlainConsole(stderr=True).is_terminal:
-        with progress_bar(1.0) as tell:
-            yield lambda what, done: tell(what, completed=done)
-        return
-    last = -1
+    told = {-1}
 
     def write(what: str, done: float) -> None:
-        nonlocal last
-        if int(_STEPS * done) > last:
-            last = int(_STEPS * done)
-            click.echo(printable(f"{100 * last // _STEPS} %: {what}"), err=True)
+        if (step := int(_STEPS * done)) > max(told):
+            told.add(step)
+            click.echo(printable(f"{100 * step // _STEPS} %: {what}"), err=True)
 
-    yield write
+    with progress_bar(1.0) as tell:
+        is_shown = PlainConsole(stderr=True).is_terminal
+        yield (lambda what, done: tell(what, completed=done)) if is_shown else write

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -12,16 +13,15 @@ from optipath.cli.console import (
     DIGITS,
     JSON,
     PlainConsole,
-    cell,
     headed,
     say,
     say_json,
     say_wrapped,
     title,
 )
-from optipath.cli.options import StrictCommand
+from optipath.cli.options import StrictCommand, given_options
 from optipath.elements.fresnel import effective_index, fresnel_reflection
-from optipath.errors import MaterialError, collecting, did_you_mean
+from optipath.errors import MaterialError, collecting, did_you_mean, listed
 from optipath.materials.database import described, known_spans, pages_with
 from optipath.materials.database_names import CURATED, VACUUM, alike, catalog_pages
 from optipath.materials.material import Material
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import numpy.typing as npt
-    from click.shell_completion import CompletionItem
 
     from optipath.materials.database_names import NamedPage
     from optipath.materials.tables import PageCurve
@@ -48,19 +47,12 @@ _VACUUM = {"name": VACUUM, "names": [VACUUM], "page": "", "range": None, "source
 _VACUUM |= {"about": _NOTHING}
 
 
-class _Name(click.Argument):
-    """Words, which a shell completes to short names."""
-
-    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
-        """Return the short names that begin so."""
-        from click.shell_completion import CompletionItem  # noqa: PLC0415 - for shells alone
-
-        del ctx
-        names = [name for curated in CURATED for name in curated.names]
-        return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
+    """Return the short names that begin so, for shells."""
+    return [name for one in CURATED for name in one.names if name.startswith(incomplete)]
 
 
-WORDS = _Name(["words"], nargs=-1, metavar="[SEARCH]")
+WORDS = click.Argument(["words"], nargs=-1, metavar="[SEARCH]", shell_complete=_names)
 AT = click.Option(
     ["--at", "wavelengths"],
     metavar="WAVELENGTH",
@@ -89,23 +81,25 @@ def _materials(
     as_json: bool,
 ) -> None:
     """List materials by name, or tell n and k of one with --at."""
+    name = " ".join(words)
     if wavelengths:
-        message = reported_at(" ".join(words), page, wavelengths, incidence, {"n": n, "k": k})
-        say_json(message.as_json()) if as_json else message.print(digits)
+        own = {"n": n, "k": k}
+        report = material_report(name, page, wavelengths, incidence, own)
+        say_json(report.as_json()) if as_json else report.print(digits)
         return
-    arguments = {"--page": page, "--incidence": incidence != "0", "--n": n is not None}
-    for option in [name for name, there in {**arguments, "--k": k is not None}.items() if there]:
-        raise click.UsageError(f"{option} goes with --at; write --at '550 nm' as well")
+    if wrong := {"--page", "--incidence", "--n", "--k"}.intersection(given_options()):
+        raise click.UsageError(
+            f"{listed(sorted(wrong))} goes with --at; write --at '550 nm' as well"
+        )
     # Of vacuum no page is needed.
-    vacuum = alike(" ".join(words)) == VACUUM
-    result = [] if vacuum else pages_with(" ".join(words).split())
+    vacuum = alike(name) == VACUUM
+    result = [] if vacuum else pages_with(name.split())
     if not result and not vacuum:
         names = [VACUUM, *[name for curated in CURATED for name in curated.names]]
-        meant = did_you_mean(" ".join(words), names)
-        raise MaterialError(f"no page has '{' '.join(words)}'{meant}")
+        raise MaterialError(f"no page has '{name}'{did_you_mean(name, names)}")
     if as_json:
-        listed = [_as_json(one) for one in result] + [_VACUUM] * (vacuum or not words)
-        say_json({"materials": listed, "units": {"range": _UNIT}})
+        several = [_as_json(one) for one in result] + [_VACUUM] * (vacuum or not words)
+        say_json({"materials": several, "units": {"range": _UNIT}})
         return
     _print(result, vacuum=vacuum or not words, everything=not words)
 
@@ -116,12 +110,9 @@ materials = click.command(
 
 
 def _print(results: list[NamedPage], *, vacuum: bool, everything: bool) -> None:
-    table = headed("material", "range", "source", box=None)
-    for one in results:
-        table.add_row(*map(cell, (one.name, _range_text(one), described(one))))
-    if vacuum:
-        table.add_row(*map(cell, (VACUUM, "any wavelength", _NOTHING)))
-    PlainConsole().print(table)
+    rows = [(one.name, _range_text(one), described(one)) for one in results]
+    rows += [(VACUUM, "any wavelength", _NOTHING)] if vacuum else []
+    PlainConsole().print(headed("material", "range", "source", rows=rows, box=None))
     if everything:
         say(f"\n{len(catalog_pages())} pages of refractiveindex.info: optipath materials WORD")
 
@@ -151,51 +142,45 @@ def _as_json(one: NamedPage) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class MaterialReport:
-    """The report of a material: figures (n,), span in metres, incidence in radians."""
+    """The report of a material; incidence in radians, figures by name, each of shape (n,)."""
 
     name: str
-    place: str
-    source: str
-    span: tuple[float, float] | None
+    curve: PageCurve | None
     incidence: float
     wavelengths: npt.NDArray[Any]
-    n: npt.NDArray[Any]
-    k: npt.NDArray[Any]
-    reflectance: npt.NDArray[Any]
-    effective_n: npt.NDArray[Any]
-    effective_k: npt.NDArray[Any]
+    figures: Mapping[str, npt.NDArray[Any]]
 
     def as_json(self) -> dict[str, Any]:
         """Return it as JSON can hold it, with all digits."""
-        results = {
+        curve = self.curve
+        return {
             "material": self.name,
-            "page": self.place,
-            "source": self.source,
-            "range": self.span and [plain(end, "nm") for end in self.span],
+            "page": curve.place if curve else "",
+            "source": curve.source if curve else "",
+            "range": curve and [plain(end, _UNIT) for end in curve.span],
             "incidence": plain(self.incidence, "deg"),
-            "wavelength": plain(self.wavelengths, "nm"),
+            "wavelength": plain(self.wavelengths, _UNIT),
+            **{name: plain(numbers) for name, numbers in self.figures.items()},
+            "units": {"range": _UNIT, "wavelength": _UNIT, "incidence": "deg"},
         }
-        for key in ("n", "k", "reflectance", "effective_n", "effective_k"):
-            results[key] = plain(getattr(self, key))
-        return results | {"units": {"range": "nm", "wavelength": "nm", "incidence": "deg"}}
 
     def print(self, digits: int) -> None:
         """Print it as a table."""
-        console = PlainConsole()
-        console.print(title(self.name, span_text(self.span) if self.span else "at any wavelength"))
+        console, curve = PlainConsole(), self.curve
+        console.print(title(self.name, span_text(curve.span) if curve else "at any wavelength"))
         angle = format_quantity(self.incidence, "deg")
         behind = [f"{part} at {angle}" for part in ("n'", "k'")]
-        table = headed("wavelength", "n", "k", "normal reflectance", *behind, box=None)
-        columns = (self.n, self.k, self.reflectance, self.effective_n, self.effective_k)
-        for wavelength, *numbers in zip(self.wavelengths, *columns, strict=True):
-            texts = [f"{number:.{digits}g}" for number in numbers]
-            table.add_row(*map(cell, (f"{in_unit(wavelength, 'nm'):.{digits}g} nm", *texts)))
-        console.print(table)
-        if self.source:
-            say_wrapped(f"{self.place}: {self.source}")
+        rows = [
+            [f"{in_unit(wavelength, _UNIT):.{digits}g} {_UNIT}", *(f"{n:.{digits}g}" for n in row)]
+            for wavelength, *row in zip(self.wavelengths, *self.figures.values(), strict=True)
+        ]
+        heads = "wavelength", "n", "k", "normal reflectance", *behind
+        console.print(headed(*heads, rows=rows, box=None))
+        if curve and curve.source:
+            say_wrapped(f"{curve.place}: {curve.source}")
 
 
-def reported_at(
+def material_report(
     name: str, page: str, wavelengths: Sequence[str], incidence: str, own: Mapping[str, Any]
 ) -> MaterialReport:
     """Return what a material is at wavelengths. Units: incidence in degrees."""
@@ -207,35 +192,26 @@ def reported_at(
         with collecting(faults, about="--at"):
             where.append(float(Wavelength().resolve(text).value))
     with collecting(faults):
-        angle = float(
-            INCIDENCE_DOMAIN.check("--incidence", parse_quantity(incidence, "angle", "deg"))
-        )
+        asked = parse_quantity(incidence, "angle", "deg")
+        angle = float(INCIDENCE_DOMAIN.check("--incidence", asked))
     if faults:
         raise MaterialError(*faults)
     parts = Material.named(name, page=page, **own)
     there = np.array(where)
-    curve: PageCurve | None = None
-    figures = []
-    for part in (parts.n, parts.k):
-        if isinstance(part, CurveValue):
-            curve = curve or part.curve
-            for wavelength in where:
-                WavelengthRange.of(part.curve).check("--at", wavelength)
-        result = part.at(there) if isinstance(part, CurveValue) else part
-        figures.append(np.broadcast_to(np.asarray(result, np.float64), there.shape))
-    n, k = figures
-    index = n + 1j * k
-    effective_n, effective_k = effective_index(index, angle)
-    return MaterialReport(
-        curve.label if curve else name,
-        curve.place if curve else "",
-        curve.source if curve else "",
-        curve.span if curve else None,
-        angle,
-        there,
-        n,
-        k,
-        fresnel_reflection(index, 1.0, 0.0)[0],
-        effective_n,
-        effective_k,
+    curves = [part.curve for part in (parts.n, parts.k) if isinstance(part, CurveValue)]
+    for curve, wavelength in product(curves, where):
+        WavelengthRange.of(curve).check("--at", wavelength)
+    n, k = (
+        np.broadcast_to(
+            np.asarray(part.at(there) if isinstance(part, CurveValue) else part, np.float64),
+            there.shape,
+        )
+        for part in (parts.n, parts.k)
     )
+    index = n + 1j * k
+    reflectance = fresnel_reflection(index, 1.0, 0.0)[0]
+    effective_n, effective_k = effective_index(index, angle)
+    figures = {"n": n, "k": k, "reflectance": reflectance}
+    figures |= {"effective_n": effective_n, "effective_k": effective_k}
+    first: PageCurve | None = curves[0] if curves else None
+    return MaterialReport(first.label if first else name, first, angle, there, figures)

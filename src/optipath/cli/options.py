@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from optipath.errors import did_you_mean
 
@@ -27,6 +29,17 @@ def parameter_name(option: str) -> str:
     return option.strip().lstrip("-").replace("-", "_")
 
 
+def given_options() -> list[str]:
+    """Return the options that stand on the command line, without their values."""
+    context = click.get_current_context()
+    return [
+        one.opts[0]
+        for one in context.command.params
+        if isinstance(one, click.Option)
+        and context.get_parameter_source(one.name or "") is not ParameterSource.DEFAULT
+    ]
+
+
 class StrictCommand(click.Command):
     """A command that says what was meant by options and words for which there is no place."""
 
@@ -41,14 +54,10 @@ class StrictCommand(click.Command):
             return left
         # Of the values of an option that takes one, click keeps the last alone.
         _, _, order = self.make_parser(ctx).parse_args(words)
-        for one in order:
-            single = isinstance(one, click.Option) and not (
-                one.multiple or one.is_flag or one.count
-            )
-            if single and order.count(one) > 1:
-                raise click.UsageError(
-                    f"{one.opts[0]} is given {order.count(one)} times; give it once", ctx
-                )
+        for one, count in Counter(order).items():
+            is_single = isinstance(one, click.Option) and not (one.multiple or one.is_flag)
+            if is_single and count > 1:
+                raise click.UsageError(f"{one.opts[0]} is given {count} times; give it once", ctx)
         if left:
             raise click.UsageError(
                 f"'{left[0]}' belongs to no option; leave it out, or quote words with spaces "

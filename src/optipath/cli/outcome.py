@@ -8,7 +8,6 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from rich.table import Table
 
 from optipath.cli.console import PlainConsole, cell, headed, title
 from optipath.errors import listed
@@ -17,14 +16,16 @@ from optipath.light.quantities import PRINTED
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import AMPLITUDE, plain
 from optipath.paths.files.writer import complex_parts_of
+from optipath.sweeps.datasets import CAPITALIZED, heading
 from optipath.sweeps.grid import SweepGrid, refuse_more_than_free
-from optipath.sweeps.labels import CAPITALIZED, heading
 from optipath.values.cases import Case
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from optipath.cli.chosen import Chosen
+    from rich.table import Table
+
+    from optipath.cli.preset_command import Chosen
     from optipath.light.light import Light
     from optipath.light.quantities import LightQuantity
     from optipath.paths.path_graph import PathGraph
@@ -158,7 +159,7 @@ def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
 
 
 _ROWS = 20
-_UNDEFINED = "-"
+_STOKES = ("S0", "S1", "S2", "S3")
 _SMALL = 1e-9
 """How far from 1 a degree of polarisation may be by rounding alone."""
 
@@ -177,19 +178,17 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
 def print_arguments(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> None:
     """Print what a run was given."""
     console.print(title(outcome.chosen.title, outcome.path.description))
-    table = Table(box=None, show_header=False)
-    arguments = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
-    for name, parameter in outcome.single.items():
-        if name in arguments:
-            continue
-        table.add_row(*map(cell, (name, numbers.value_of(parameter), parameter.help)))
-    for name, label in arguments.items():
-        table.add_row(*map(cell, (name, label, outcome.chosen.opened.parameters[name].help)))
-    for name, word in outcome.chosen.places.items():
-        table.add_row(*map(cell, (name, word, outcome.path.choices[name].help)))
-    for axis in outcome.grid.axes:
-        table.add_row(*map(cell, (axis.name, span_text(axis, numbers.digits), axis.help)))
-    console.print(table)
+    labels = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
+    opened, choices = outcome.chosen.opened.parameters, outcome.path.choices
+    rows = [
+        (name, numbers.value_of(parameter), parameter.help)
+        for name, parameter in outcome.single.items()
+        if name not in labels
+    ]
+    rows += [(name, label, opened[name].help) for name, label in labels.items()]
+    rows += [(name, word, choices[name].help) for name, word in outcome.chosen.places.items()]
+    rows += [(a.name, span_text(a, numbers.digits), a.help) for a in outcome.grid.axes]
+    console.print(headed("", "", "", rows=rows, box=None, show_header=False))
 
 
 def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
@@ -205,23 +204,20 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
         console.print(cell(f"{name} {text}"))
     for axis in first.grid.axes:
         console.print(cell(f"{axis.name} {span_text(axis, digits)}"))
-    table = headed("case", "at", "S0", "S1", "S2", "S3")
+    rows: list[list[str]] = []
     for case, outcome in outcomes.items():
         for name, light in outcome.lights.items():
-            for row in _case_rows(light, numbers, outcome.grid):
-                table.add_row(*map(cell, [f"{case}{row[0]}", name, *row[1:]]))
+            several = _case_rows(light, numbers, outcome.grid)
+            rows += [[f"{case}{place}", name, *texts] for place, *texts in several]
             if published := outcome.case.published.get(name):
-                texts = [f"{number:g}" for number in published]
-                table.add_row(*map(cell, [f"{case}, published", name, *texts]))
-    console.print(table)
+                rows.append([f"{case}, published", name, *(f"{n:g}" for n in published)])
+    console.print(headed("case", "at", *_STOKES, rows=rows))
     notes: dict[str, list[str]] = {}
     for case, outcome in outcomes.items():
         if outcome.case.note:
             notes.setdefault(outcome.case.note, []).append(case)
     for note, cases in notes.items():
-        console.print(
-            cell(f"note on {'case' if len(cases) == 1 else 'cases'} {listed(cases)}: {note}")
-        )
+        console.print(cell(f"note on case{'s' * (len(cases) > 1)} {listed(cases)}: {note}"))
     console.print(cell(ran([*outcomes.values()])))
 
 
@@ -242,9 +238,7 @@ def ran(outcomes: Sequence[Outcome]) -> str:
         "model": [outcome.model for outcome in outcomes],
         "engine": [outcome.engine for outcome in outcomes],
     }
-    return ", ".join(
-        f"{what} {' or '.join(dict.fromkeys(result))}" for what, result in ways.items()
-    )
+    return ", ".join(f"{what} {' or '.join(dict.fromkeys(one))}" for what, one in ways.items())
 
 
 def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
@@ -252,19 +246,17 @@ def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
     if outcome.grid.axes:
         return point_table(f"light at {name}", light, outcome.grid, numbers)
     if light.stokes.ndim > 1:
-        return _batch_table(name, light, numbers, published)
-    table = headed(f"light at {name}", "computed")
+        rows = [[text.strip() for text in row] for row in _case_rows(light, numbers, SweepGrid(()))]
+        rows += [["published", *(f"{number:g}" for number in published)]] if published else []
+        return headed(f"light at {name}", *_STOKES, rows=rows)
+    rows = [[word, text] for word, text in zip(_STOKES, numbers.stokes(light), strict=True)]
     if published:
-        table.add_column("published")
-    for position, component in enumerate(numbers.stokes(light)):
-        row = [f"S{position}", component]
-        table.add_row(*map(cell, [*row, *([f"{published[position]:g}"] if published else [])]))
-    for word, text in _state_rows(light, numbers):
-        table.add_row(cell(word), cell(text))
-    return table
+        rows = [[*row, f"{number:g}"] for row, number in zip(rows, published, strict=True)]
+    rows += _state_rows(light, numbers)
+    return headed(f"light at {name}", "computed", *["published"] * bool(published), rows=rows)
 
 
-def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
+def _state_rows(light: Light, numbers: Numbers) -> Iterator[list[str]]:
     """Yield what is told of light besides its components."""
     unread = bool(np.isnan(light.stokes).any())
     partly = " of the polarised part" if float(light.dop) < 1.0 - _SMALL else ""
@@ -273,35 +265,19 @@ def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
         number = plain(each.of(light), unit)
         if number is not None:
             behind = partly if "ellipsometry" in word else ""
-            yield word, f"{numbers.text(number)} {unit}".strip() + behind
+            yield [word, f"{numbers.text(number)} {unit}".strip() + behind]
         elif not unread:
-            yield word, _UNDEFINED
-
-
-def _batch_table(
-    name: str, light: Light, numbers: Numbers, published: Sequence[float] | None
-) -> Table:
-    table = headed(f"light at {name}", "S0", "S1", "S2", "S3")
-    for row in _case_rows(light, numbers, SweepGrid(())):
-        table.add_row(*(cell(text.strip()) for text in row))
-    if published:
-        table.add_row("published", *(f"{number:g}" for number in published))
-    return table
+            yield [word, "-"]
 
 
 MOST_ROWS = 200
 """How many rows a table has; more are for a file."""
 
 _FEW = 5
-_STOKES = ("S0", "S1", "S2", "S3")
 
 
 def printed_value(value: Any, digits: int) -> str:
-    """Return a value of an axis as it is printed.
-
-    >>> printed_value(400.0, 6), printed_value("horizontal", 6)
-    ('400', 'horizontal')
-    """
+    """Return a value of an axis as it is printed."""
     return value if isinstance(value, str) else f"{value + 0.0:.{digits}g}"
 
 
@@ -330,27 +306,33 @@ def point_table(
     """Return a table with a row for each point of a grid."""
     columns = [heading(axis.name, axis.unit) for axis in grid.axes] + [*_STOKES]
     columns += [heading(each.printed, each.shown_unit) for each in quantities]
-    table = headed(*columns, right=0, box=None, title=cell(title))
     more = [each.shown_of(light) for each in quantities]
-    for index in islice(np.ndindex(grid.shape), MOST_ROWS):
-        values = _values_at(grid, index, numbers.digits)
-        behind = (numbers.state(float(each[index])) for each in more)
-        table.add_row(*map(cell, (*values, *numbers.stokes(light, index), *behind)))
+    rows = [
+        [
+            *_values_at(grid, index, numbers.digits),
+            *numbers.stokes(light, index),
+            *(numbers.state(float(each[index])) for each in more),
+        ]
+        for index in islice(np.ndindex(grid.shape), MOST_ROWS)
+    ]
     if (left := grid.points - MOST_ROWS) > 0:
-        table.add_row(cell(f"{left:,} more"))
-    return table
+        rows.append([f"{left:,} more"])
+    return headed(*columns, rows=rows, right=0, box=None, title=cell(title))
 
 
 def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> Table:
     """Return S0 for a grid of two axes: a row for each value of the first."""
     down, across = grid.axes
-    heads = [printed_value(value, numbers.digits) for value in across.shown.tolist()]
+    heads, labels = (
+        [printed_value(value, numbers.digits) for value in axis.shown.tolist()]
+        for axis in (across, down)
+    )
     corner = f"{heading(down.name, down.unit)} \\ {heading(across.name, across.unit)}"
-    table = headed(corner, *heads, right=0, box=None, title=cell(title))
-    for row, value in enumerate(down.shown.tolist()):
-        texts = [numbers.stokes(light, (row, place))[0] for place in range(len(across))]
-        table.add_row(*map(cell, (printed_value(value, numbers.digits), *texts)))
-    return table
+    rows = [
+        [label, *(numbers.stokes(light, (row, place))[0] for place in range(len(across)))]
+        for row, label in enumerate(labels)
+    ]
+    return headed(corner, *heads, rows=rows, right=0, box=None, title=cell(title))
 
 
 def _values_at(grid: SweepGrid, index: Sequence[int], digits: int) -> list[str]:

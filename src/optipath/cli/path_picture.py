@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from itertools import accumulate, pairwise
+from statistics import fmean
 from typing import TYPE_CHECKING, TypeAlias
 from xml.etree.ElementTree import Element as Tag
 from xml.etree.ElementTree import SubElement, indent, tostring
@@ -21,7 +23,6 @@ if TYPE_CHECKING:
     from optipath.composer.wiring import Link
     from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
-    from optipath.values.parameters import Parameter
 
 
 Item: TypeAlias = "str | tuple[Link, int]"
@@ -58,10 +59,6 @@ def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
     """Return the drawing of a path, as SVG.
 
     Nodes are below all that send light to them; taps are dashed, and loops led back at the right.
-
-    >>> import optipath as op
-    >>> path_picture(op.load_preset("malus"), "malus")[:42]
-    '<svg xmlns="http://www.w3.org/2000/svg" wi'
     """
     name += f", case {case}" if case else ""
     graph = _Graph(path)
@@ -140,11 +137,14 @@ class _Graph:
 
     def _places(self) -> dict[Item, float]:
         """Return the middle of each item: near those that it is linked with, and over none."""
-        ends = {
-            one: (self.boxes[one[0]].leaving[one], self.boxes[one[1]].entering[one])
-            for one in self.ways
-        }
-        above, below = _linked(self.ways, ends)
+        above: dict[Item, list[tuple[Item, float]]] = defaultdict(list)
+        below: dict[Item, list[tuple[Item, float]]] = defaultdict(list)
+        for link, way in self.ways.items():
+            leaves, enters = self.boxes[link[0]].leaving[link], self.boxes[link[1]].entering[link]
+            offsets = [leaves, *[0.0] * (len(way) - 2), enters]
+            for (upper, left), (lower, right) in pairwise(zip(way, offsets, strict=True)):
+                above[lower].append((upper, left - right))
+                below[upper].append((lower, right - left))
         places: dict[Item, float] = {item: 0.0 for row in self.rows for item in row}
         for sweep in range(_SWEEPS):
             # At last downwards, so that a chain hangs straight from where it begins.
@@ -152,7 +152,7 @@ class _Graph:
             for row in rows:
                 room = [self._right(one) + _GAP + self._left(other) for one, other in pairwise(row)]
                 wanted = [
-                    _mean([places[one] + shift for one, shift in near.get(item, [(item, 0.0)])])
+                    fmean(places[one] + shift for one, shift in near[item] or [(item, 0.0)])
                     for item in row
                 ]
                 places |= zip(row, _apart(wanted, room), strict=True)
@@ -267,10 +267,6 @@ def graph_layers(
 
     Each node is behind all that send it light; few links cross (barycenters: Sugiyama, Tagawa and
     Toda, IEEE Trans. SMC 11, 109, 1981).
-
-    >>> links = [("a", "b", ("out", "in")), ("b", "c", ("out", "in")), ("a", "c", ("left", "in"))]
-    >>> graph_layers(["a", "b", "c"], links)[0]
-    [['a'], ['b', (('a', 'c', ('left', 'in')), 1)], ['c']]
     """
     place = {name: number for number, name in enumerate(order)}
     onwards = [link for link in links if place[link[0]] < place[link[1]]]
@@ -285,93 +281,60 @@ def graph_layers(
         rows[layer[name]].append(name)
     ways: dict[Link, list[Item]] = {}
     for link in onwards:
-        passed: list[Item] = [(link, at) for at in range(layer[link[0]] + 1, layer[link[1]])]
-        for at, item in enumerate(passed, layer[link[0]] + 1):
-            rows[at].append(item)
+        passed: list[tuple[Link, int]] = [
+            (link, at) for at in range(layer[link[0]] + 1, layer[link[1]])
+        ]
+        for item in passed:
+            rows[item[1]].append(item)
         ways[link] = [link[0], *passed, link[1]]
-    above, below = _linked(ways, {})
+    items = nx.DiGraph()
+    items.add_nodes_from(order)
+    for way in ways.values():
+        nx.add_path(items, way)
     for sweep in range(_SWEEPS):
-        near, turned = (below, rows[::-1]) if sweep % 2 else (above, rows)
+        near, turned = (items.succ, rows[::-1]) if sweep % 2 else (items.pred, rows)
         middle: dict[Item, float] = {}
         for row in turned:
             here = {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
-            row.sort(key=lambda o: _mean([middle[n] for n, _ in near[o]]) if o in near else here[o])
+            row.sort(
+                key=lambda one: fmean(middle[n] for n in near[one]) if near[one] else here[one]
+            )
             middle |= {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
     return rows, ways
-
-
-_Linked: TypeAlias = "dict[Item, list[tuple[Item, float]]]"
-
-
-def _linked(
-    ways: Mapping[Link, Sequence[Item]], ends: Mapping[Link, tuple[float, float]]
-) -> tuple[_Linked, _Linked]:
-    """Return what each item hangs on in the layer above and in that below, and how far beside."""
-    above: _Linked = {}
-    below: _Linked = {}
-    for link, way in ways.items():
-        leaves, enters = ends.get(link, (0.0, 0.0))
-        offsets = [leaves, *[0.0] * (len(way) - 2), enters]
-        for (upper, left), (lower, right) in pairwise(zip(way, offsets, strict=True)):
-            above.setdefault(lower, []).append((upper, left - right))
-            below.setdefault(upper, []).append((lower, right - left))
-    return above, below
 
 
 def _apart(wanted: Sequence[float], room: Sequence[float]) -> list[float]:
     """Return places nearest to those wanted (least squares), with room between neighbors.
 
     Isotonic regression by pooling adjacent violators, of places less the room before them.
-
-    >>> _apart([0.0, 1.0, 9.0], [3.0, 3.0])
-    [-1.0, 2.0, 9.0]
     """
     before = [*accumulate(room, initial=0.0)]
     pools: list[list[float]] = []
     for place, taken in zip(wanted, before, strict=True):
         pools.append([place - taken])
-        while len(pools) > 1 and _mean(pools[-2]) > _mean(pools[-1]):
+        while len(pools) > 1 and fmean(pools[-2]) > fmean(pools[-1]):
             last = pools.pop()
             pools[-1] += last
-    level = [_mean(pool) for pool in pools for _ in pool]
+    level = [fmean(pool) for pool in pools for _ in pool]
     return [one + taken for one, taken in zip(level, before, strict=True)]
 
 
-def _mean(numbers: Sequence[float]) -> float:
-    return sum(numbers) / len(numbers)
-
-
-Row = tuple[str, str, str, str]
-"""The name, the default, the range, and what it is."""
-
-
-def headings(case: str | None) -> Row:
-    """Return what stands above the columns: of a path with the values of a case no defaults.
-
-    >>> headings(None)[1], headings("8")[1]
-    ('default', 'value')
-    """
+def headings(case: str | None) -> tuple[str, str, str, str]:
+    """Return what stands above the rows: of a path with the values of a case no defaults."""
     return "parameter", "default" if case is None else "value", "range", "what it is"
 
 
-def parameter_rows(path: PathGraph) -> list[Row]:
-    """Return the rows of a path.
-
-    >>> import optipath as op
-    >>> parameter_rows(op.load_preset("malus"))[0]
-    ('angle', '30 deg', '-360 deg .. 360 deg', 'turn of the analyser against the polariser')
-    """
-    rows = [_row(parameter) for parameter in path.parameters.values()]
+def parameter_rows(path: PathGraph) -> list[tuple[str, str, str, str]]:
+    """Return the name of each parameter, its default, its range, and what it is."""
+    rows = []
+    for name, each in path.parameters.items():
+        described = "; ".join(filter(None, [each.help, ", ".join(each.all_words)]))
+        default = ("bound to " if each.bound else "") + each.default_text()
+        rows.append((name, default, each.range_text(), described))
     for name, choice in path.choices.items():
         described = "; ".join(filter(None, [choice.help, ", ".join(choice.behind)]))
         rows.append((name, choice.place(path.graph), "", described))
     return rows
-
-
-def _row(parameter: Parameter) -> Row:
-    described = "; ".join(filter(None, [parameter.help, ", ".join(parameter.all_words)]))
-    default = ("bound to " if parameter.bound else "") + parameter.default_text()
-    return parameter.name, default, parameter.range_text(), described
 
 
 _Table: TypeAlias = "tuple[list[tuple[str, ...]], Sequence[int]]"
@@ -429,21 +392,13 @@ _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def drawable(text: str) -> str:
-    r"""Return a text on one line, with the codes of characters that XML has no place for.
-
-    >>> print(drawable("a\n b"))
-    a b
-    """
+    """Return a text on one line, with the codes of characters that XML has no place for."""
     tame = printable(" ".join(text.split()))
     return _NO_XML.sub(lambda result: f"U+{ord(result[0]):04X}", tame)
 
 
 def lines_of(text: str, cells: int) -> list[str]:
-    """Return a text in lines of at most so many cells; words that are longer are broken.
-
-    >>> lines_of("a polariser of reflected light", 12)
-    ['a polariser', 'of reflected', 'light']
-    """
+    """Return a text in lines of at most so many cells; words that are longer are broken."""
     lines: list[str] = []
     for word in drawable(text).split():
         joined = f"{lines[-1]} {word}" if lines else word

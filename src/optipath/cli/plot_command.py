@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 import numpy as np
 
-from optipath.cli.arguments import NewFile, check_place
+from optipath.cli.arguments import NewFile, array_faults, check_place
 from optipath.cli.console import say
 from optipath.cli.options import flag, parameter_name
 from optipath.cli.preset_command import READS, PresetGroup
@@ -24,9 +25,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from optipath.cli.chosen import Chosen
+    from optipath.cli.preset_command import Chosen
     from optipath.paths.path_graph import PathGraph
-    from optipath.plan.plan import Plan
     from optipath.values.text import AxisValues
 
 
@@ -74,7 +74,7 @@ def request_of(
     plan = path.compose()
     known, (detectors, dumps) = [*plan.inputs.open], (plan.program.detectors, plan.program.dumps)
     faults = [] if detector is None else unknown("detector", detector, [*detectors, *dumps])
-    faults += _array_faults(plan)
+    faults += array_faults(plan.inputs)
     faults += _axis_faults(chosen, names, known)
     faults += _count_faults(kind, axes, known)
     if len(axes) > 1 and len(quantities) > 1:
@@ -93,24 +93,12 @@ def request_of(
     return PlotRequest(kind, title, path, axes, quantities, ends, published)
 
 
-def _array_faults(plan: Plan) -> list[str]:
-    """Return which parameters have several values, of which a picture has one, a sentence each."""
-    inputs = plan.inputs
-    return [
-        f"parameter '{name}' has several values in the file, and a picture is of one; give one by "
-        f"{flag(name)}"
-        for name, parameter in {**inputs.open, **inputs.bound}.items()
-        if isinstance(parameter.default, np.ndarray)
-        and parameter.default.ndim > len(inputs.tails.get(name, ()))
-    ]
-
-
 def _axis_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
     """Return what is wrong with what varies, a sentence each."""
     faults = []
-    for name in dict.fromkeys(names):
-        if names.count(name) > 1:
-            faults.append(f"--x {name} is given {names.count(name)} times; give it once")
+    for name, count in Counter(names).items():
+        if count > 1:
+            faults.append(f"--x {name} is given {count} times; give it once")
         if name in chosen.opened.choices:
             faults.append(
                 f"--x {name} is a place, of which no axis has several; give {flag(name)} WORD"
@@ -122,10 +110,11 @@ def _axis_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> 
         else:
             faults += unknown("--x", name, known)
     for name, values in chosen.axes.items():
-        if values.shown.dtype.kind == "U":
-            word = next(one for one in values.shown.tolist() if one[:1].isalpha())
+        words = [one for one in values.shown.tolist() if isinstance(one, str) and one[:1].isalpha()]
+        if words:
             faults.append(
-                f"{flag(name)} has the word {shown(word)}, and an axis is of numbers; leave it out"
+                f"{flag(name)} has the word {shown(words[0])}, and an axis is of numbers; leave it "
+                f"out"
             )
         if name not in known:
             faults.append(
@@ -337,14 +326,7 @@ def draw_title(figure: Figure, title: str) -> None:
 
 
 def title_of(chosen: Chosen, **others: str | None) -> str:
-    """Return the preset and the case, and each value that is given besides, with its name.
-
-    >>> import optipath as op
-    >>> from optipath.cli.chosen import Chosen
-    >>> path = op.load_preset("npgr026")
-    >>> title_of(Chosen("npgr026", path, "8", {"delta": 0.5235987755982988}), reads="intensity")
-    'npgr026, case 8, delta 30 deg, reads intensity'
-    """
+    """Return the preset and the case, and each value that is given besides, with its name."""
     labels = {name: label for name, label, _ in materials_among(chosen.values)}
     texts: dict[str, Any] = {}
     for name, value in chosen.values.items():

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, say_json, title
-from optipath.cli.preset_command import PresetGroup
+from optipath.cli.preset_command import PresetGroup, of_each
 from optipath.errors import listed
 from optipath.materials.quantities import plain
 from optipath.paths.polarization import polarization as polarization_of
@@ -18,7 +17,7 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from optipath.cli.chosen import Chosen
+    from optipath.cli.preset_command import Chosen
     from optipath.paths.path_graph import PathGraph
     from optipath.paths.polarization import Polarization
 

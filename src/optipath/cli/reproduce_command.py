@@ -90,10 +90,8 @@ def _list(experiments: list[Experiment], *, as_json: bool) -> None:
     if as_json:
         say_json({one.name: one.description for one in experiments})
         return
-    table = headed("experiment", "what it is", box=None)
-    for one in experiments:
-        table.add_row(cell(one.name), cell(f"{one.description} ({one.source})"))
-    PlainConsole().print(table)
+    rows = [(one.name, f"{one.description} ({one.source})") for one in experiments]
+    PlainConsole().print(headed("experiment", "what it is", rows=rows, box=None))
 
 
 reproduce = click.command(
@@ -132,10 +130,8 @@ def _table(several: Sequence[Reproduced]) -> Table:
     rows = [[*_row(one)] for one in several]
     # Columns without any entry tell nothing.
     stored = [at for at in range(len(_COLUMNS)) if any(row[at] for row in rows)]
-    table = headed(*(_COLUMNS[at] for at in stored), box=None)
-    for row in rows:
-        table.add_row(*(cell(row[at]) for at in stored))
-    return table
+    shown = [[row[at] for at in stored] for row in rows]
+    return headed(*[_COLUMNS[at] for at in stored], rows=shown, box=None)
 
 
 def _row(one: Reproduced) -> Iterator[str]:

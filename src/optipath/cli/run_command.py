@@ -1,21 +1,21 @@
-"""``optipath run``: the light at the detectors."""
+"""``optipath run`` and ``optipath explain``: the light at the detectors, and how it is computed."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.cli.arguments import grid_of_axes, refuse_arrays
-from optipath.cli.chosen import of_each
-from optipath.cli.console import DIGITS, say_json
+from optipath.cli.arguments import array_faults, grid_of_axes
+from optipath.cli.console import DIGITS, say_json, say_wrapped
 from optipath.cli.outcome import outcome_as_json, outcome_of, print_cases, print_outcome
-from optipath.cli.preset_command import COMPOSING, PresetGroup
+from optipath.cli.preset_command import COMPOSING, PresetGroup, of_each
 from optipath.composer.composer import Composer
+from optipath.errors import ParameterError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from optipath.cli.chosen import Chosen
     from optipath.cli.outcome import Outcome
+    from optipath.cli.preset_command import Chosen
 
 
 def _run(chosen: Chosen, *, reads: str | None, as_json: bool, digits: int, **options: Any) -> None:
@@ -40,9 +40,22 @@ def _run_several(
 
 def _outcome(chosen: Chosen, reads: str | None, options: Mapping[str, Any]) -> Outcome:
     path = chosen.path(reads)
-    refuse_arrays(path, chosen.axes)
     plan = path.plan_by(Composer(**options))
+    if chosen.axes and (faults := array_faults(plan.inputs, chosen.axes)):
+        raise ParameterError(*faults)
     return outcome_of(chosen, path, plan, grid_of_axes(path, chosen.axes))
 
 
 run = PresetGroup("run", _run, (*COMPOSING, DIGITS), several=_run_several, ranges=True)
+
+
+def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
+    """Explain the plan of a preset."""
+    result = chosen.path(reads).plan_by(Composer(**options)).explanation()
+    if as_json:
+        say_json({"preset": chosen.preset, **result.as_dict()})
+    else:
+        say_wrapped(str(result))
+
+
+explain = PresetGroup("explain", _explain)

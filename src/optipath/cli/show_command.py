@@ -1,4 +1,4 @@
-"""``optipath show``: what a preset is made of."""
+"""``optipath presets`` and ``optipath show``: what there is, and what it is made of."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 import click
 
 from optipath.cli.arguments import NewFile, check_place, write
-from optipath.cli.chosen import one_case
-from optipath.cli.console import PlainConsole, cell, headed, wrapped
+from optipath.cli.console import JSON, PlainConsole, cell, headed, say_descriptions, wrapped
 from optipath.cli.options import StrictCommand
 from optipath.cli.path_picture import headings, parameter_rows, path_picture
-from optipath.cli.preset_command import no_preset
+from optipath.cli.preset_command import no_preset, one_case
 from optipath.errors import shown
 from optipath.paths.drawing import draw
-from optipath.paths.files.presets import load_preset, preset_of_case
+from optipath.paths.files.presets import load_preset, preset_descriptions, preset_of_case
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -28,12 +27,25 @@ SVG = click.Option(
 )
 
 
+@click.command(cls=StrictCommand, params=[JSON])
+def presets(*, as_json: bool) -> None:
+    """List the presets."""
+    say_descriptions("preset", preset_descriptions(), as_json=as_json)
+
+
 def _show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
     """Show the parameters, elements and links of a preset, or of a TOML file."""
     if preset is None:
         raise no_preset()
+    if svg is not None and svg.suffix.lower() != ".svg":
+        begun = svg.with_suffix("")
+        example = begun if begun.suffix == ".svg" else svg.with_suffix(".svg")
+        raise click.UsageError(
+            f"--svg draws SVG, and '{svg}' ends otherwise; name a file such as "
+            f"{shown(str(example))}"
+        )
     if svg is not None:
-        _check_svg(svg)
+        check_place(svg)
     path = load_preset(preset)
     case = one_case("show", path, cases)
     path = path if case is None else preset_of_case(path, preset, case)
@@ -46,23 +58,10 @@ PRESET = click.Argument(["preset"], required=False, metavar="PRESET")
 show = click.command("show", cls=StrictCommand, params=[PRESET, CASE, SVG])(_show)
 
 
-def _check_svg(file: Path) -> None:
-    if file.suffix.lower() != ".svg":
-        begun = file.with_suffix("")
-        raise click.UsageError(
-            f"--svg draws SVG, and '{file}' ends otherwise; name a file such as "
-            f"{shown(str(begun if begun.suffix == '.svg' else file.with_suffix('.svg')))}"
-        )
-    check_place(file)
-
-
 def _print(console: PlainConsole, path: PathGraph, case: str | None) -> None:
     console.print(cell(path.description, style="bold"), end="\n\n")
     if path.parameters or path.choices:
-        table = headed(*headings(case), box=None)
-        for row in parameter_rows(path):
-            table.add_row(*map(cell, row))
-        console.print(table)
+        console.print(headed(*headings(case), rows=parameter_rows(path), box=None))
         console.print()
     text = [draw(path)]
     if path.cases:

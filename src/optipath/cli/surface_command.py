@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.core import ParameterSource
+import numpy as np
 
 from optipath.cli import console
 from optipath.cli.arguments import SEED, THREADS, NewFile, axis_argument, check_place, whole
 from optipath.cli.console import JSON, say, say_descriptions, say_json
-from optipath.cli.options import StrictCommand
+from optipath.cli.options import StrictCommand, given_options
 from optipath.errors import SurfaceError, listed, shown
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.paths.files.schema import Faults
@@ -122,56 +123,13 @@ _MOST = 1000
 _INCIDENCE, _AZIMUTH = (Parameter(name, unit="deg") for name in ("incidence", "azimuth"))
 
 
-def incidences_of(texts: Sequence[str]) -> list[AxisValues]:
-    """Return the angles of incidence that options give, each alone.
-
-    >>> [one.shown.item() for one in incidences_of(["0:60:3", "1 rad"])]
-    [0.0, 30.0, 60.0, 1.0]
-    """
-    if not texts:
-        raise SurfaceError("--incidence is missing; give the angle of incidence: --incidence 60")
-    several = [_values(text, _INCIDENCE, "deg") for text in texts]
-    _refuse_many("--incidence", sum([len(one.given) for one in several]))
-    return [
-        AxisValues(one.shown[at], one.unit, one.given[at])
-        for one in several
-        for at in range(len(one.given))
-    ]
-
-
-def _wavelengths_of(text: str | None) -> AxisValues | None:
-    """Return the wavelengths that an option gives, without an axis where it is one."""
-    if text is None:
-        return None
-    result = _values(text, WAVELENGTH, "")
-    _refuse_many("--wavelength", len(result.given))
-    return result if axis_argument(WAVELENGTH, text, ()) else result.reshaped(())
-
-
-def _azimuth_of(text: str) -> float:
-    """Return an azimuth in radians."""
-    if len(result := _values(text, _AZIMUTH, "deg").given) > 1:
-        raise SurfaceError(f"--azimuth takes one angle, and {shown(text)} is several; give one")
-    return float(result[0])
-
-
-def _numbers_of(option: str, text: str, usual: str, counts: tuple[int, ...]) -> tuple[Any, ...]:
-    """Return numbers with commas between them, of the kind of those that are usual.
-
-    >>> _numbers_of("--cells", "640, 320", "640", (1, 2))
-    (640, 320)
-    """
-    kind = int if usual.isdecimal() else float
-    try:
-        results = tuple([kind(part) for part in text.split(",")])
-    except ValueError:
-        results = ()
-    if len(results) not in counts:
-        raise SurfaceError(
-            f"{option} takes {' or '.join(map(str, counts))} numbers with commas between, such as "
-            f"{usual}, and not {shown(text)}"
-        )
-    return results
+def _values(option: str, text: str, parameter: Parameter, unit: str = "") -> AxisValues:
+    """Return the values that an option gives, without an axis where it is one."""
+    several = axis_argument(parameter, text, ())
+    if several is None:
+        return read_entries([text], parameter, unit).reshaped(())
+    _refuse_many(option, len(several.given))
+    return several
 
 
 def _refuse_many(option: str, count: int) -> None:
@@ -182,8 +140,37 @@ def _refuse_many(option: str, count: int) -> None:
         )
 
 
-def _values(text: str, parameter: Parameter, unit: str) -> AxisValues:
-    return axis_argument(parameter, text, ()) or read_entries([text], parameter, unit)
+def _incidences_of(texts: Sequence[str]) -> list[AxisValues]:
+    """Return the angles of incidence that options give, each alone."""
+    if not texts:
+        raise SurfaceError("--incidence is missing; give the angle of incidence: --incidence 60")
+    several = [_values("--incidence", text, _INCIDENCE, "deg") for text in texts]
+    _refuse_many("--incidence", sum([one.given.size for one in several]))
+    return [
+        AxisValues(one.shown[at], one.unit, one.given[at])
+        for one in several
+        for at in np.ndindex(one.given.shape)
+    ]
+
+
+def _azimuth_of(text: str) -> float:
+    """Return an azimuth in radians."""
+    if (result := _values("--azimuth", text, _AZIMUTH, "deg").given).size > 1:
+        raise SurfaceError(f"--azimuth takes one angle, and {shown(text)} is several; give one")
+    return float(result.item())
+
+
+def _numbers_of(option: str, text: str, usual: str, counts: tuple[int, ...]) -> tuple[Any, ...]:
+    """Return numbers with commas between them, of the kind of those that are usual."""
+    kind = int if usual.isdecimal() else float
+    with suppress(ValueError):
+        results = tuple([kind(part) for part in text.split(",")])
+        if len(results) in counts:
+            return results
+    raise SurfaceError(
+        f"{option} takes {' or '.join(map(str, counts))} numbers with commas between, such as "
+        f"{usual}, and not {shown(text)}"
+    )
 
 
 def _walks(
@@ -202,26 +189,26 @@ def _walks(
     from optipath.cli.surface_output import Walk  # noqa: PLC0415 - slow to import
 
     faults = Faults()
-    angles = faults.attempt("", incidences_of, incidences) or incidences_of(["0"])
-    lights = faults.attempt("", _wavelengths_of, wavelength)
-    light: dict[str, Any] = {
+    angles = faults.attempt("", _incidences_of, incidences) or _incidences_of(["0"])
+    lights = wavelength and faults.attempt("", _values, "--wavelength", wavelength, WAVELENGTH)
+    state = faults.attempt("", _numbers_of, "--stokes", stokes, "1,0,0,0", (4,))
+    options |= {
         "azimuth": faults.attempt("", _azimuth_of, azimuth) or 0.0,
-        "stokes": faults.attempt("", _numbers_of, "--stokes", stokes, "1,0,0,0", (4,))
-        or UNPOLARISED,
-        "wavelength": None if lights is None else lights.given,
+        "stokes": state or UNPOLARISED,
+        "wavelength": lights.given if lights else None,
     }
     mesh = faults.attempt("", _numbers_of, "--cells", cells, "640", (1, 2)) if cells else None
     drawn = {"surfaces": surfaces, "cells": mesh and (*mesh, mesh[0])[:2], "seed": sample_seed}
     changes = {name: value for name, value in drawn.items() if value is not None}
     sample = faults.attempt("the sample", replace, sample, **changes) or sample
     runs = [
-        faults.attempt("", partial(run_arguments, sample, angle.given, **light, **options))
+        faults.attempt("", partial(run_arguments, sample, angle.given, **options))
         for angle in angles
     ]
     if faults:
         raise SurfaceError(*dict.fromkeys(faults))
     return [
-        Walk(angle, lights, *run, options["tolerance"])
+        Walk(angle, lights or None, *run, options["tolerance"])
         for angle, run in zip(angles, filter(None, runs), strict=True)
     ]
 
@@ -283,13 +270,7 @@ surface = click.command(
 
 
 def _list_samples(*, as_json: bool) -> None:
-    context = click.get_current_context()
-    options = [one for one in context.command.params if one.name not in ("sample", "as_json")]
-    arguments = [
-        one.opts[0]
-        for one in options
-        if context.get_parameter_source(one.name or "") is not ParameterSource.DEFAULT
-    ]
+    arguments = [option for option in given_options() if option != "--json"]
     descriptions = sample_descriptions()
     if arguments:
         names = ", ".join(descriptions)

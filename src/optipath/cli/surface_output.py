@@ -171,10 +171,8 @@ def _tables(models: Sequence[EnergyShares], place: tuple[int, ...]) -> Iterator[
 
 
 def _table(corner: str, labels: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
-    table = headed(corner, *_MODELS, right=1, box=None)
-    for label, row in zip(labels, rows, strict=True):
-        table.add_row(*map(cell, (label, *row)))
-    return table
+    labelled = [[label, *row] for label, row in zip(labels, rows, strict=True)]
+    return headed(corner, *_MODELS, rows=labelled, right=1, box=None)
 
 
 def _row(models: Sequence[EnergyShares], name: str, place: tuple[int, ...]) -> list[str]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-from optipath.cli.arguments import refuse_arrays, write
+from optipath.cli.arguments import array_faults, write
 from optipath.cli.console import DIGITS, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.options import flag, parameter_name
 from optipath.cli.outcome import (
@@ -29,8 +29,7 @@ from optipath.errors import ParameterError, listed, printable, shown
 from optipath.light.printed import Numbers
 from optipath.light.quantities import PRINTED
 from optipath.sweeps.axes import grid_of
-from optipath.sweeps.jobs import place_of_blocks
-from optipath.sweeps.labels import regions, table_columns, table_heads
+from optipath.sweeps.datasets import regions, table_columns, table_heads
 from optipath.values.columns import columns_of
 from optipath.values.files import message_of, written_whole
 
@@ -39,8 +38,8 @@ if TYPE_CHECKING:
 
     from rich.table import Table
 
-    from optipath.cli.chosen import Chosen
     from optipath.cli.outcome import Outcome
+    from optipath.cli.preset_command import Chosen
     from optipath.plan.plan import Plan
     from optipath.sweeps.grid import SweepGrid
 
@@ -116,11 +115,7 @@ def _faults(
 
 
 def out_faults(out: str) -> list[str]:
-    """Return what is wrong with a file that a sweep is to be written to, a sentence each.
-
-    >>> out_faults("result.txt")
-    ["--out 'result.txt' has no ending of a sweep; write 'result.csv', .json, .nc or .zarr"]
-    """
+    """Return what is wrong with a file that a sweep is to be written to, a sentence each."""
     file, name = Path(out), f"--out {shown(out)}"
     folder = file.absolute().parent
     if "\0" in out or file.suffix not in (*_TEXTS, *_BLOCKS):
@@ -154,9 +149,10 @@ def _sweep(
         flags = listed([flag(name) for name in twice])
         raise ParameterError(f"{flags} and --coords both give values; leave one of them out")
     path = chosen.path(reads, other)
-    refuse_arrays(path, [*chosen.axes, *other])
     composer = Composer(**options)
-    plan = composer.compose(path)
+    plan = path.plan_by(composer)
+    if (chosen.axes or other) and (faults := array_faults(plan.inputs, [*chosen.axes, *other])):
+        raise ParameterError(*faults)
     together = zip_groups(zip)
     grid = grid_of(plan.inputs, chosen.axes, together, coords)
     if not grid.axes:
@@ -252,17 +248,19 @@ def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Nu
 def _summary(outcome: Outcome, numbers: Numbers) -> Table:
     """Return how many points there are, and between which values S0 lies."""
     about = cell(sizes_text(outcome.grid))
-    table = headed("", "least S0", "largest S0", box=None, title=about, right=1)
+    rows = []
     for name, light in outcome.lights.items():
         known = light.intensity[np.isfinite(light.intensity)]
         ends = [float(find(known)) if known.size else np.nan for find in (np.min, np.max)]
-        table.add_row(*map(cell, (f"light at {name}", *map(numbers.state, ends))))
-    return table
+        rows.append([f"light at {name}", *map(numbers.state, ends)])
+    return headed("", "least S0", "largest S0", rows=rows, box=None, title=about, right=1)
 
 
 @contextmanager
 def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
     """Show a bar on a terminal; say how many blocks were there, and are where Ctrl-C comes."""
+    from optipath.sweeps.stored import place_of_blocks  # noqa: PLC0415 - Zarr takes its time
+
     counts: list[tuple[int, int]] = []
     # A file is written once all are there.
     stored = place_of_blocks(store)

@@ -16,8 +16,8 @@ from optipath.explorer.state import faults_as_json, read_path, read_state, reque
 from optipath.explorer.traced import curve_detector, curve_grid, traced, traced_as_json
 from optipath.materials.material import Material
 from optipath.materials.named_materials import extinction_with
+from optipath.sweeps.datasets import regions, table_columns, table_heads
 from optipath.sweeps.grid import SweepGrid
-from optipath.sweeps.labels import regions, table_columns, table_heads
 from optipath.values.units import UNITS, parse_quantity
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from optipath.materials.quantities import plain
 from optipath.paths.binding import from_materials
 from optipath.paths.energy import KEEPING, lights_along
 from optipath.plots.scene.layout import scene_of
+from optipath.sweeps.datasets import heading
 from optipath.sweeps.grid import SweepGrid, sweep_axis
-from optipath.sweeps.labels import heading
 from optipath.values.text import read_axis_text
 from optipath.values.units import in_unit, unit_of
 

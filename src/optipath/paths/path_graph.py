@@ -781,10 +781,19 @@ class PathGraph(Chainable):
         {'angle': 0.504, 'intensity': 0.496}
         """
         # Sweeps stand above paths.
-        from optipath.sweeps.uncertainty import PropagateOptions, propagate  # noqa: PLC0415
+        from optipath.sweeps.uncertainty import propagate  # noqa: PLC0415
 
-        options = PropagateOptions(method, samples, seed, correlation, detector, composer)
-        return propagate(self, unnamed, values, options)
+        return propagate(
+            self,
+            unnamed,
+            values,
+            method=method,
+            samples=samples,
+            seed=seed,
+            correlation=correlation,
+            detector=detector,
+            composer=composer,
+        )
 
     def __copy__(self) -> Self:
         return self._with(self._graph.copy())

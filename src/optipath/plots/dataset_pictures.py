@@ -12,7 +12,7 @@ from optipath.plots.axes import own_axes
 from optipath.plots.light_at_detector import AlongAxis
 from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
 from optipath.plots.parameter_curves import draw_curves, draw_map, units_of
-from optipath.sweeps.labels import CAPITALIZED, DETECTOR
+from optipath.sweeps.datasets import CAPITALIZED, DETECTOR
 from optipath.values.units import in_unit
 
 if TYPE_CHECKING:

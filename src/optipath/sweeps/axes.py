@@ -1,15 +1,19 @@
-"""Axes of a sweep, from its arguments, and their faults."""
+"""Axes of a sweep, from its arguments, coordinates or columns of a file, and their faults."""
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from optipath.composer.composer import Composer
 from optipath.errors import (
+    OptipathError,
     ParameterError,
     closest,
     collecting,
@@ -20,27 +24,25 @@ from optipath.errors import (
 )
 from optipath.paths.path_graph import PathGraph
 from optipath.plan.inputs import LargeAngles
-from optipath.sweeps.coords import (
-    CoordinateArgument,
-    coords_axes,
-    has_coordinates,
-    in_base_units,
-    is_labelled,
-    read_column,
-    unit_of_array,
-)
+from optipath.sweeps.datasets import DETECTOR, is_variable
 from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
 from optipath.values.angles import CosSin
 from optipath.values.arrays import as_argument, broadcast_fault, locked
-from optipath.values.columns import TextColumn
+from optipath.values.columns import NO_UNIT, TextColumn, columns_of, first_of, missing_unit
 from optipath.values.jax_values import check_known, known
 from optipath.values.text import AxisValues, IdleValues, read_axis_text, read_entries
-from optipath.values.units import BASE_UNITS, dimension_of
+from optipath.values.units import BASE_UNITS, UNITS, dimension_of, units_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Collection, Sequence
+
+    import numpy.typing as npt
 
     from optipath.plan.inputs import Inputs
+    from optipath.values.parameters import Parameter
+
+Given: TypeAlias = "dict[str, tuple[Any, str]]"
+"""What is given for each parameter, and along which dimension, "" for one of its own."""
 
 
 _SHORT = 16
@@ -60,21 +62,25 @@ def grid_of(
 ) -> SweepGrid:
     """Return the grid of a sweep."""
     faults: list[str] = []
-    besides = coords_axes(inputs, coords, faults)
-    twice = [name for name in arguments if name in besides]
-    drop = f", such as coords.drop_vars({twice})" if has_coordinates(coords) else ""
+    besides = _coords_axes(inputs, coords, faults)
     faults += [
-        f"'{name}' is given by its name, and in coords as well; leave one of them out{drop}"
-        for name in twice
+        f"'{name}' is given by its name, and in coords as well; leave one of them out"
+        for name in arguments
+        if name in besides
     ]
-    several = {name: CoordinateArgument(value) for name, value in arguments.items()} | besides
+    several = {name: (value, "") for name, value in arguments.items()} | besides
     values = _read(inputs, several, faults)
-    dimensions = {name: several[name].dimension or name for name in values}
+    dimensions = {name: several[name][1] or name for name in values}
     own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
     dimensions |= zipped_dimensions(zip, own, {*inputs.open, *values}, faults)
-    along = {name: value.dims[0] for name, value in arguments.items() if is_labelled(value, axes=1)}
+    along = {n: v.dims[0] for n, v in arguments.items() if _is_labelled(v) and v.ndim == 1}
     faults += shared_dimensions(along, dimensions)
-    faults += _named_as_others(dimensions, values, inputs)
+    faults += [
+        f"'{name}' is along the dimension '{dimension}', which is the name of a parameter with "
+        f"another axis; rename the dimension, such as coords.rename_dims({dimension}='point')"
+        for dimension, name in {dimensions[n]: n for n, v in values.items() if v.given.ndim}.items()
+        if dimension in inputs.open and dimensions.get(dimension) != dimension
+    ]
     faults += unnamed_arrays(inputs, several)
     axes: list[SweepAxis] = []
     fixed: dict[str, Any] = {}
@@ -83,9 +89,9 @@ def grid_of(
         numbers = value.given
         if numbers.ndim:
             axes.append(sweep_axis(inputs.open, name, value, dimensions[name]))
-        else:
-            fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
-            labels[name] = value.shown, value.unit
+            continue
+        fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
+        labels[name] = value.shown, value.unit
     grid = SweepGrid(tuple(axes), fixed, labels)
     is_short = max(_LARGE, _SHORT * sum(map(len, axes))) < grid.points
     ranges = ranges or bool(faults) or is_short
@@ -98,20 +104,18 @@ def grid_of(
         raise ParameterError(*dict.fromkeys(faults))
     # What has a unit besides says what it is.
     plain = {
-        name: given.value
-        for name, given in several.items()
-        if not isinstance(given.value, TextColumn | AxisValues) and not is_labelled(given.value)
+        name: value
+        for name, (value, _) in several.items()
+        if not isinstance(value, TextColumn | AxisValues) and not _is_labelled(value)
     }
     LargeAngles(inputs).look(plain)
     return grid
 
 
-def _read(
-    inputs: Inputs, several: Mapping[str, CoordinateArgument], faults: list[str]
-) -> dict[str, AxisValues]:
+def _read(inputs: Inputs, several: Given, faults: list[str]) -> dict[str, AxisValues]:
     """Return the values of each parameter that there is, and that nothing is wrong with."""
-    idle = {name for name, each in several.items() if isinstance(each.value, IdleValues)}
-    faults += unknown_names(inputs, {n: g.value for n, g in several.items() if n not in idle})
+    idle = {name for name, (value, _) in several.items() if isinstance(value, IdleValues)}
+    faults += unknown_names(inputs, {n: v for n, (v, _) in several.items() if n not in idle})
     results = {}
     for name, (value, _) in several.items():
         if name in inputs.open or name in idle:
@@ -119,23 +123,10 @@ def _read(
                 if isinstance(value, AxisValues):
                     results[name] = value
                 elif isinstance(value, TextColumn):
-                    results[name] = read_column(inputs, value)
+                    results[name] = _read_column(inputs, value)
                 else:
                     results[name] = read_values(inputs, name, value)
     return results
-
-
-def _named_as_others(
-    dimensions: Mapping[str, str], values: Mapping[str, AxisValues], inputs: Inputs
-) -> list[str]:
-    """Return what is wrong with dimensions that are called as parameters of other axes."""
-    along = {dimensions[name]: name for name, value in values.items() if value.given.ndim}
-    return [
-        f"'{name}' is along the dimension '{dimension}', which is the name of a parameter with "
-        f"another axis; rename the dimension, such as coords.rename_dims({dimension}='point')"
-        for dimension, name in along.items()
-        if dimension in inputs.open and dimensions.get(dimension) != dimension
-    ]
 
 
 def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
@@ -147,17 +138,13 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
             f"parameter '{name}' takes several numbers for one path, which no axis has; bind it, "
             f"by path.bind({name}=...), or leave out what sweeps it"
         )
-    if isinstance(value, CosSin):
+    if isinstance(value, CosSin) or hasattr(value, "data_vars") or hasattr(value, "columns"):
         raise ParameterError(
-            f"parameter '{name}' is a cosine and a sine, which no axis shows; give the angle"
-        )
-    if hasattr(value, "data_vars") or hasattr(value, "columns"):
-        raise ParameterError(
-            f"parameter '{name}' is a {type(value).__name__}; give the numbers of one of its "
-            f"columns or coordinates, or all by coords="
+            f"parameter '{name}' is a {type(value).__name__}, and an axis is of numbers; give an "
+            f"angle itself, of a table one of its columns or coordinates, or all by coords="
         )
     check_known(f"parameter '{name}' of a sweep", value)
-    parameter, labelled = inputs.open[name], is_labelled(value)
+    parameter, labelled = inputs.open[name], _is_labelled(value)
     if isinstance(value, str):
         several = read_axis_text(value, parameter, "", inputs.uses)
         if several is not None:
@@ -166,7 +153,14 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         inputs.refuse_materials(name, value)
     numbers = value.values if labelled else known(value)
     array = as_argument(f"parameter '{name}'", numbers, ParameterError)
-    _check_one_dimension(name, array.shape)
+    if array.ndim > 1:
+        raise ParameterError(
+            f"parameter '{name}' has the shape {array.shape}, and an axis has one dimension; give "
+            f"its values in a row, .ravel(), and zip=('{name}', ...) for parameters that vary "
+            f"together"
+        )
+    if not array.size:
+        raise ParameterError(f"parameter '{name}' has no values; give one at least")
     if array.dtype.kind in "UO":
         texts = read_entries(array.ravel().tolist(), parameter, "", inputs.uses)
         return texts.reshaped(array.shape)
@@ -174,20 +168,10 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         parameter.resolve(numbers)  # Which says what is wrong with it.
     array = array.astype(np.float64) if array.dtype.kind in "iu" else array.copy()
     if labelled:
-        unit = unit_of_array(parameter, value.attrs.get("units", ""))
-        return AxisValues(array, unit, in_base_units(parameter, array, unit))
+        unit = _unit_of_array(parameter, value.attrs.get("units", ""))
+        return AxisValues(array, unit, _in_base_units(parameter, array, unit))
     array = locked(array)
     return AxisValues(array, BASE_UNITS.get(dimension_of(parameter.unit), ""), array)
-
-
-def _check_one_dimension(name: str, shape: tuple[int, ...]) -> None:
-    if len(shape) > 1:
-        raise ParameterError(
-            f"parameter '{name}' has the shape {shape}, and an axis has one dimension; give its "
-            f"values in a row, .ravel(), and zip=('{name}', ...) for parameters that vary together"
-        )
-    if 0 in shape:
-        raise ParameterError(f"parameter '{name}' has no values; give one at least")
 
 
 _AS = "zip=('a', 'b'), zip=[('a', 'b'), ('c', 'd')] or zip={'point': ('a', 'b')}"
@@ -239,11 +223,7 @@ def zipped_dimensions(
 
 
 def shared_dimensions(along: Mapping[str, Any], dimensions: Mapping[str, str]) -> list[str]:
-    """Return what is wrong with arrays along one dimension that may or may not vary together.
-
-    >>> shared_dimensions({"a": "x", "b": "x"}, {"a": "a_b", "b": "a_b"})
-    []
-    """
+    """Return what is wrong with arrays along one dimension that may or may not vary together."""
     faults = []
     for shared in dict.fromkeys(along.values()):
         names = [name for name in along if along[name] == shared]
@@ -271,16 +251,9 @@ def _axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> lis
                 inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
             if ranges:
                 # As if there were no other parameters.
-                alone = replace(
-                    inputs,
-                    open={name: inputs.open[name]},
-                    uses=uses,
-                    shapes={},
-                    known=(),
-                    agreements=(),
-                    for_complex=(),
-                    computed=(),
-                )
+                own: dict[str, Any] = {"open": {name: inputs.open[name]}, "uses": uses}
+                own |= dict.fromkeys(("known", "agreements", "for_complex", "computed"), ())
+                alone = replace(inputs, shapes={}, **own)
                 alone.resolve({name: value})
     return faults
 
@@ -316,14 +289,7 @@ _OPTIONS = frozenset(each.name for each in fields(Composer)) - {"keep"}
 
 
 def unknown_names(inputs: Inputs, arguments: Mapping[str, Any]) -> list[str]:
-    """Return what is wrong with names that no parameter has.
-
-    >>> import optipath as op
-    >>> inputs = op.load_preset("malus").compose().inputs
-    >>> unknown_names(inputs, {"engine": "numba", "dtype": "float32"})
-    ["'engine' and 'dtype' are no parameters of the path; give \
-composer=op.Composer(engine='numba', dtype='float32')"]
-    """
+    """Return what is wrong with names that no parameter has."""
     unknown = [name for name in arguments if name not in inputs.open]
     chosen = {*inputs.open, *inputs.bound, *inputs.choices}
     options = [name for name in unknown if name in _OPTIONS and closest(name, chosen) is None]
@@ -334,3 +300,158 @@ composer=op.Composer(engine='numba', dtype='float32')"]
         written = ", ".join(f"{name}={shown(arguments[name])}" for name in options)
         faults.append(f"{names} {are} of the path; give composer=op.Composer({written})")
     return faults
+
+
+_ROWS = "point"
+"""The dimension along which the columns of a file vary together."""
+
+_OPENED = {".nc": "xr.open_dataset", ".h5": "xr.open_dataset", ".zarr": "xr.open_zarr"}
+"""What reads the coordinates of files that are no tables."""
+
+
+def _coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> Given:
+    """Return what ``coords=`` gives, by name."""
+    if coords is None:
+        return {}
+    try:
+        if isinstance(coords, (str, PathLike)):
+            return _of_file(inputs, coords, faults)
+        if _has_coordinates(coords):
+            return _of_dataset(inputs, coords, faults)
+    except OptipathError as fault:
+        faults += [each.under(fault.about) for each in fault.faults]
+        return {}
+    if isinstance(coords, Mapping):
+        return {str(name): (value, "") for name, value in coords.items()}
+    what = f"a {type(coords).__name__}" if hasattr(coords, "columns") else shown(coords)
+    faults.append(
+        f"coords is {what}; give the name of a CSV file, a Dataset, or columns by name, such as "
+        f"{{'delta': [...]}}, and zip= where they vary together"
+    )
+    return {}
+
+
+def _of_file(inputs: Inputs, path: str | PathLike[str], faults: list[str]) -> Given:
+    if (opened := _OPENED.get(PurePath(path).suffix)) is not None:
+        raise ParameterError(
+            f"coords='{path}' is no CSV file; give what it holds, coords={opened}('{path}')"
+        )
+    # The table of a sweep has its axes, and what was found along them.
+    columns = [
+        column
+        for column in columns_of(path, inputs.open)
+        if column.name in inputs.open or not is_variable(column.name)
+    ]
+    dimension = _ROWS if len(columns) > 1 else ""
+    names = [column.name for column in columns]
+    faults += [f"{path}: {inputs.unknown(name)}" for name in names if name not in inputs.open]
+    return {each.name: (each, dimension) for each in columns if each.name in inputs.open}
+
+
+def _of_dataset(inputs: Inputs, argument: Any, faults: list[str]) -> Given:
+    results = {}
+    coords, order = getattr(argument, "coords", argument), _order_of_dimensions(argument)
+    # Those of a store that was opened are in the order of the alphabet.
+    first = sorted(coords.items(), key=lambda each: min(map(order.index, each[1].dims), default=0))
+    for name, array in first:
+        if name not in inputs.open and (name == DETECTOR or _is_label(inputs, coords, name)):
+            continue
+        if name not in inputs.open:
+            faults.append(f"{inputs.unknown(str(name))}, or leave it out, .drop_vars('{name}')")
+        elif array.ndim > 1:
+            faults.append(
+                f"coordinate '{name}' is along {', '.join(map(str, array.dims))}, and an axis has "
+                f"one dimension; leave it out, .drop_vars('{name}'), or make it of one, .stack(...)"
+            )
+        else:
+            results[str(name)] = array, str(array.dims[0]) if array.dims else ""
+    return results
+
+
+def _order_of_dimensions(argument: Any) -> list[Any]:
+    """Return the dimensions, as data have them, and then as coordinates do."""
+    data = sorted(getattr(argument, "data_vars", {}).values(), key=lambda each: -each.ndim)
+    several = [*data, argument, *getattr(argument, "coords", argument).values()]
+    return list(dict.fromkeys(dimension for each in several for dimension in each.dims))
+
+
+def _is_label(inputs: Inputs, coords: Any, name: Any) -> bool:
+    """Tell whether a coordinate says what the points of a dimension are called, and no more."""
+    return coords[name].dims == (name,) and any(
+        other in inputs.open and array.dims == (name,) for other, array in coords.items()
+    )
+
+
+_NO_UNIT = ("", NO_UNIT, "dimensionless")
+
+
+def _is_of_xarray(value: Any, *classes: str) -> bool:
+    """Tell whether a value is of one of some classes, without importing xarray."""
+    xarray = sys.modules.get("xarray")
+    return xarray is not None and isinstance(value, tuple([getattr(xarray, n) for n in classes]))
+
+
+def _is_labelled(value: Any) -> bool:
+    return _is_of_xarray(value, "DataArray")
+
+
+def _has_coordinates(value: Any) -> bool:
+    return _is_of_xarray(value, "DataArray", "Dataset", "Coordinates")
+
+
+def _unit_of_array(parameter: Parameter, unit: Any) -> str:
+    """Return the unit that an attribute says."""
+    unit = unit.strip() if isinstance(unit, str) else unit
+    dimension = dimension_of(parameter.unit)
+    if not isinstance(unit, str) or (dimension and unit in _NO_UNIT):
+        why = f"is a DataArray of unit {shown(unit)}" if unit else "is a DataArray without a unit"
+        known = ", ".join(units_of(dimension)) if dimension else NO_UNIT
+        raise ParameterError(
+            f"parameter '{parameter.name}' {why}; write one of {known} into .attrs['units']"
+        )
+    if unit in _NO_UNIT:
+        return ""
+    parameter.parse(f"1 {unit}")
+    return unit
+
+
+def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -> npt.NDArray[Any]:
+    """Return numbers of a unit as the parameter has them."""
+    if unit in ("", BASE_UNITS.get(dimension_of(parameter.unit))):
+        return numbers.copy()
+    known = UNITS.get(unit)
+    if numbers.dtype.kind == "f":
+        numbers = numbers.astype(np.float64)
+        if known is not None and not known.power:
+            return numbers * known.size
+    # The decimal point is moved in the number as it is written, which rounds once.
+    results = [
+        parameter.parse(f"{number} {unit}") if np.isfinite(number) else number
+        for number in numbers.ravel().tolist()
+    ]
+    return np.array(results).reshape(numbers.shape)
+
+
+def _read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
+    """Return the values of a column; faults are told by the lines of their cells."""
+    parameter = inputs.open[column.name]
+    if lacking := missing_unit(column, parameter):
+        raise ParameterError(f"{column.file}: {lacking}")
+
+    def read(texts: Sequence[str]) -> AxisValues:
+        result = read_entries(texts, parameter, "", inputs.uses)
+        # Its range.
+        inputs.numbers_for(column.name, result.given if len(texts) > 1 else result.given[0])
+        return result
+
+    try:
+        return read(column.texts)
+    except OptipathError as fault:
+        message: list[str] = []
+        for line, text in zip(column.lines, column.texts, strict=True):
+            of_one: list[str] = []
+            with collecting(of_one):
+                read([text])
+            message += [f"line {line}: {sentence}" for sentence in of_one]
+        message = message or [*fault.faults]
+    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(message)])

@@ -15,8 +15,7 @@ from concurrent.futures import (
     ThreadPoolExecutor,
     wait,
 )
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from functools import partial
 from itertools import islice
 from multiprocessing import get_context, parent_process
@@ -25,6 +24,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import cloudpickle
 import dask
+from dask.local import SynchronousExecutor
 from dask.system import CPU_COUNT
 
 from optipath.errors import JobError, OptipathError, shown, unknown
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     import zarr
 
-    from optipath.sweeps.jobs import BlockJob
+    from optipath.sweeps.store import BlockJob
 
 
 def keep_blocks(
@@ -47,15 +47,13 @@ def keep_blocks(
 ) -> zarr.Group:
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
-    The store is removed after an error that left no block, unless cluster workers may still write
-    to it. Every block that is done stays, whatever ends the rest, and two
-    runs may share a store. Sums over blocks are made from the store in the order of blocks, so they
-    do not depend on the order of computing.
+    After an error the store stays, unless it is empty and no worker of a cluster may still write to
+    it; two runs may share one. Sums over blocks are made from it in the order of blocks.
 
     >>> from tempfile import TemporaryDirectory
     >>> from types import SimpleNamespace
     >>> import numpy as np
-    >>> from optipath.sweeps.jobs import StoredArray
+    >>> from optipath.sweeps.store import StoredArray
     >>> job = SimpleNamespace(
     ...     identity="squares of 0 to 5, in blocks of 2",
     ...     blocks=3,
@@ -143,19 +141,13 @@ def _raise_fault(finished: Future[OptipathError | None], number: int) -> None:
         message = finished.result()
     except CancelledError:
         raise JobError(_LOST) from None
-    except BrokenProcessPool:
-        raise JobError(
-            f"a process was lost while block {number} was computed, for want of memory perhaps, or "
-            f"since a script starts processes outside of if __name__ == '__main__':; what is done "
-            f"is not computed again"
-        ) from None
     except Exception as fault:
-        if type(fault).__name__ != "KilledWorker":
+        if type(fault).__name__ not in ("KilledWorker", "BrokenProcessPool"):
             raise
         raise JobError(
-            f"the process that computed block {number} was lost again and again, for want of "
-            f"memory perhaps; make blocks smaller or workers fewer and start again, and what is "
-            f"done is not computed again"
+            f"a process was lost while block {number} was computed, for want of memory perhaps, or "
+            f"since a script starts processes outside of if __name__ == '__main__':; make blocks "
+            f"smaller or workers fewer and start again, and what is done is not computed again"
         ) from None
     if message is not None:
         raise message
@@ -199,7 +191,7 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     """Have those at work whom a scheduler stands for; those who are made for it go afterwards."""
     argument = active_client() or "threads" if scheduler is None else scheduler
     if argument == "synchronous":
-        yield Workers(AtOnce(), lambda: 1)
+        yield Workers(SynchronousExecutor(), lambda: 1)
     elif argument == "threads":
         with ThreadPoolExecutor(CPU_COUNT) as threads:
             yield Workers(threads, lambda: _AHEAD * CPU_COUNT)
@@ -220,39 +212,38 @@ _PATIENCE = 10.0
 @contextmanager
 def _client_of(argument: Any) -> Iterator[Any]:
     """Have the client of a cluster; what is made for an address is closed afterwards."""
-    if isinstance(argument, str):
-        with _reached(argument) as client:
-            yield client
-    elif argument.asynchronous or argument.status != "running":
-        how = "asynchronous" if argument.asynchronous else argument.status
-        raise JobError(
-            f"the client of the cluster is {how}; give one that is connected and waits for "
-            f"results, such as distributed.Client(address)"
-        )
-    else:
+    if not isinstance(argument, str):
+        if argument.asynchronous or argument.status != "running":
+            how = "asynchronous" if argument.asynchronous else argument.status
+            raise JobError(
+                f"the client of the cluster is {how}; give one that is connected and waits for "
+                f"results, such as distributed.Client(address)"
+            )
         yield argument
-
-
-def _reached(address: str) -> Any:
-    from distributed import Client, Security  # noqa: PLC0415 - it takes a second
-    from distributed.comm import connect  # noqa: PLC0415
-
-    async def knock() -> None:
-        certificates = Security().get_connection_args("client")
-        comm = await connect(address, timeout=_PATIENCE, **certificates)
-        await comm.close()
+        return
+    from distributed import Client  # noqa: PLC0415 - it takes a second
 
     try:
         # A client that waits in vain cannot be closed, so that somebody else asks first.
         with ThreadPoolExecutor(1) as elsewhere:
-            elsewhere.submit(asyncio.run, knock()).result()
-        return Client(address, set_as_default=False)
+            elsewhere.submit(asyncio.run, _knock(argument)).result()
+        client = Client(argument, set_as_default=False)
     except (OSError, ValueError, ImportError, TypeError) as fault:
         raise JobError(
-            f"no cluster answers at '{address}' ({fault}); see that its scheduler runs and that "
+            f"no cluster answers at '{argument}' ({fault}); see that its scheduler runs and that "
             f"the address is as it prints it; where it asks for certificates, give a "
             f"distributed.Client that has them"
         ) from None
+    with client:
+        yield client
+
+
+async def _knock(address: str) -> None:
+    from distributed import Security  # noqa: PLC0415
+    from distributed.comm import connect  # noqa: PLC0415
+
+    certificates = Security().get_connection_args("client")
+    await (await connect(address, timeout=_PATIENCE, **certificates)).close()
 
 
 def _threads_of(client: Any) -> int:
@@ -278,26 +269,9 @@ def _end_with_parent() -> None:
 
 def active_client() -> Any:
     """Return the client of a cluster that is active in this process, or None."""
-    result = sys.modules.get("distributed")
-    if result is None:
-        return None
-    try:
-        return result.default_client()
-    except ValueError:
-        return None
-
-
-class AtOnce(Executor):
-    """An executor that does what it is given there and then."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Do it, and return what came of it."""
-        done: Future[Any] = Future()
-        try:
-            done.set_result(fn(*args, **kwargs))
-        except Exception as error:  # noqa: BLE001 - whoever asks for the result gets it
-            done.set_exception(error)
-        return done
+    with suppress(KeyError, ValueError):
+        return sys.modules["distributed"].default_client()
+    return None
 
 
 class Travelling(Executor):

@@ -4,29 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import dask.array as da
 import numpy as np
-import xarray as xr
 from dask.base import tokenize
 from dask.delayed import delayed
 
 from optipath.errors import Cure, Fault, ParameterError, shown, unknown
 from optipath.light.quantities import QUANTITIES
-from optipath.sweeps.datasets import (
-    attributes_of,
-    coordinates_of,
-    dataset_attributes,
-    dimensions_of,
-)
+from optipath.sweeps.datasets import detectors_of, regions, sweep_dataset
 from optipath.sweeps.grid import SweepGrid
-from optipath.sweeps.labels import detectors_of, regions, variable_names
 from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.values.precision import is_whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+    import xarray as xr
 
     from optipath.composer.composer import Composer
     from optipath.light.light import Light
@@ -35,7 +29,8 @@ if TYPE_CHECKING:
     from optipath.plan.plan import Plan
 
 
-class ChunkedSweep(NamedTuple):
+@dataclass(frozen=True)
+class ChunkedSweep:
     """A sweep of which nothing is computed yet, and what it is made of."""
 
     recipe: PlanRecipe
@@ -48,16 +43,12 @@ def swept_in_chunks(
     path: PathGraph, plan: Plan, grid: SweepGrid, chunks: Any, composer: Composer | None = None
 ) -> ChunkedSweep:
     """Return the light of a grid, to be computed block by block."""
-    names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
-    sizes = chunk_sizes(chunks, grid.sizes, len(detectors_of(plan)))
     recipe = PlanRecipe.of(path, composer)
-    light = ChunkedLight(recipe, grid, sizes)
-    quantities = {names[each.variable]: each for each in QUANTITIES}
-    variables = {
-        name: (dims, light.of(each), attributes_of(each)) for name, each in quantities.items()
-    }
-    attrs = dataset_attributes(path, plan, composer)
-    result = xr.Dataset(variables, coordinates_of(grid, plan), attrs)
+    light = ChunkedLight(recipe, grid, chunk_sizes(chunks, grid.sizes, len(detectors_of(plan))))
+    result = sweep_dataset(
+        path, plan, grid, composer, lambda: {each.variable: light.of(each) for each in QUANTITIES}
+    )
+    quantities = dict(zip(map(str, result.data_vars), QUANTITIES, strict=True))
     return ChunkedSweep(recipe, grid, quantities, result)
 
 
@@ -117,16 +108,7 @@ _AT_ONCE = 1 << 18
 
 @dataclass(frozen=True)
 class BlockLight:
-    """The light of all detectors, for the points of one block.
-
-    >>> import optipath as op
-    >>> from optipath.light.quantities import COMPONENTS
-    >>> lights = op.Light([1.0, 0.0, 0.0, 0.0]), op.Light([2.0, 0.0, 0.0, 0.0])
-    >>> block = BlockLight((2, 1), (lights,))
-    >>> block.of(COMPONENTS[0])
-    array([[1.],
-           [2.]])
-    """
+    """The light of all detectors, for the points of one block."""
 
     shape: tuple[int, ...]
     lights: tuple[tuple[Light, ...], ...]

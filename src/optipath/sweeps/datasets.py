@@ -1,4 +1,4 @@
-"""Coordinates, variables and attributes of a sweep's Dataset."""
+"""Names, coordinates and attributes of a sweep's Dataset, and tables of it as text."""
 
 from __future__ import annotations
 
@@ -8,16 +8,19 @@ from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
-import pandas as pd
 
 from optipath.composer.composer import Composer
-from optipath.errors import PathError, listed
+from optipath.errors import ParameterError, PathError, listed
 from optipath.light.frame import Frame
-from optipath.sweeps.labels import DETECTOR, detectors_of
+from optipath.light.quantities import QUANTITIES
+from optipath.plan.reading import pieces
 from optipath.values.units import BASE_UNITS
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+
     import numpy.typing as npt
+    import xarray as xr
 
     from optipath.light.quantities import LightQuantity
     from optipath.paths.path_graph import PathGraph
@@ -27,10 +30,126 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
 
 
-def dimensions_of(grid: SweepGrid, plan: Plan) -> tuple[str, ...]:
-    """Return the dimensions of the variables: detectors, if there are several, and the axes."""
-    front = (DETECTOR,) if len(detectors_of(plan)) > 1 else ()
-    return (*front, *grid.sizes)
+DETECTOR = "detector"
+"""The dimension of several detectors."""
+
+CAPITALIZED = {"psi": "Psi", "delta": "Delta"}
+"""What both ellipsometric angles are called where a parameter has the name of one."""
+
+
+def is_variable(name: str) -> bool:
+    """Tell whether a column of a file is called as a variable of a sweep."""
+    own = {quantity.variable for quantity in QUANTITIES}
+    return name.partition(" at ")[0] in {*own, *CAPITALIZED.values()}
+
+
+def detectors_of(plan: Plan) -> tuple[str, ...]:
+    """Return the names of the detectors of a plan; dumps are none."""
+    return tuple(plan.program.detectors)
+
+
+def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
+    """Return what the variable of each quantity is called."""
+    taken = [*dict.fromkeys([*grid.sizes, *plan.inputs.open])]
+    own = [quantity.variable for quantity in QUANTITIES]
+    other = CAPITALIZED if CAPITALIZED.keys() & set(taken) else {}
+    names = {name: other.get(name, name) for name in own}
+    several = len(detectors_of(plan)) > 1
+    if faults := [*_faults(taken, {*names.values(), *([DETECTOR] if several else [])})]:
+        raise ParameterError(*faults)
+    return names
+
+
+def _faults(taken: Collection[str], names: Collection[str]) -> list[str]:
+    return [
+        f"'{name}' is what a sweep calls a {'dimension' if name == DETECTOR else 'variable'} of "
+        f"its own; give the parameter or dimension another name, such as '{name}_'"
+        for name in taken
+        if name in names
+    ]
+
+
+_ROWS = 1 << 16
+"""How many rows are computed at once."""
+
+
+def heading(name: str, unit: str) -> str:
+    """Return the heading of a column, with the unit of its numbers.
+
+    >>> heading("delta", "deg"), heading("n1", "")
+    ('delta (deg)', 'n1')
+    """
+    return f"{name} ({unit})" if unit else name
+
+
+def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ...]]:
+    """Yield parts of a grid in the order of its points.
+
+    >>> [[(cut.start, cut.stop) for cut in region] for region in regions((2, 3), 2)]
+    [[(0, 1), (0, 2)], [(0, 1), (2, 3)], [(1, 2), (0, 2)], [(1, 2), (2, 3)]]
+    """
+    for piece in pieces(tuple(shape), most):
+        cuts = [each if isinstance(each, slice) else slice(each, each + 1) for each in piece.where]
+        yield (*cuts, *[slice(0, size) for size in shape[len(cuts) :]])
+
+
+def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
+    """Return the heading of each column: of the axes, then of the quantities of light."""
+    names = variable_names(grid, plan)
+    ends = detectors_of(plan)
+    at = [f" at {end}" for end in ends] if len(ends) > 1 else [""]
+    messages = [
+        heading(names[quantity.variable] + place, quantity.shown_unit)
+        for place in at
+        for quantity in QUANTITIES
+    ]
+    return [_quoted(name) for name in (*[heading(a.name, a.unit) for a in grid.axes], *messages)]
+
+
+def table_columns(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Sequence[str]]:
+    """Yield the texts of each column for a part of a grid."""
+    shape = tuple(cut.stop - cut.start for cut in region)
+    places = dict(zip(grid.sizes, range(len(shape)), strict=True))
+    for axis in grid.axes:
+        place = places[axis.dimension]
+        texts = np.array([_text(value) for value in axis.shown[region[place]].tolist()], object)
+        along = texts.reshape(-1, *(1,) * (len(shape) - 1 - place))
+        yield np.broadcast_to(along, shape).ravel().tolist()
+    lights = plan.run_all(**grid.given(region))
+    for end in detectors_of(plan):
+        for quantity in QUANTITIES:
+            numbers = quantity.shown_of(lights[end])
+            each = np.broadcast_to(numbers + 0.0, shape)  # It may be the same along an axis.
+            yield [repr(number) for number in each.ravel().tolist()]
+
+
+def _text(value: Any) -> str:
+    return _quoted(value) if isinstance(value, str) else repr(value)
+
+
+def _quoted(text: str) -> str:
+    """Return a cell of a table, in quotation marks where it needs them."""
+    return '"' + text.replace('"', '""') + '"' if any(each in text for each in ',"\n') else text
+
+
+def sweep_dataset(
+    path: PathGraph,
+    plan: Plan,
+    grid: SweepGrid,
+    composer: Composer | None,
+    data: Callable[[], Mapping[str, Any]],
+) -> xr.Dataset:
+    """Return the Dataset of a sweep; all is checked before the data of its variables are made."""
+    import xarray as xr  # noqa: PLC0415 - not for tables
+
+    names, coords = variable_names(grid, plan), coordinates_of(grid, plan)
+    dims = (*[DETECTOR] * (len(detectors_of(plan)) > 1), *grid.sizes)
+    found = data()
+    variables = {
+        names[each.variable]: (dims, found[each.variable], attributes_of(each))
+        for each in QUANTITIES
+    }
+    return xr.Dataset(variables, coords, dataset_attributes(path, plan, composer))
 
 
 def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dict[str, str]]]:
@@ -53,12 +172,7 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dic
 
 
 def attributes_of(quantity: LightQuantity) -> dict[str, str]:
-    """Return the attributes of the variable of a quantity.
-
-    >>> from optipath.light.quantities import DERIVED
-    >>> attributes_of(DERIVED[0])
-    {'long_name': 'degree of polarisation', 'units': '1'}
-    """
+    """Return the attributes of the variable of a quantity."""
     unit = {"units": quantity.unit} if quantity.unit else {}
     return {"long_name": quantity.name, **unit}
 
@@ -67,6 +181,8 @@ def _labels(axis: SweepAxis) -> Any:
     values = _for_files(axis.shown)
     if axis.name != axis.dimension or values.dtype != np.float64:
         return values
+    import pandas as pd  # noqa: PLC0415 - only for what xarray has loaded already
+
     return pd.Index(values, copy=False)  # By default pandas copies what may be a long axis.
 
 
@@ -98,14 +214,7 @@ _UNREPORTED = ("threads", "keep")
 def dataset_attributes(
     path: PathGraph, plan: Plan, composer: Composer | None = None
 ) -> dict[str, str | float]:
-    """Return the attributes of the Dataset of a sweep, texts and numbers.
-
-    >>> import optipath as op
-    >>> path = op.load_preset("malus")
-    >>> attributes = dataset_attributes(path, path.compose())
-    >>> attributes["method"], attributes["frame"]
-    ('stable', 'eye: x = 1, 0, 0; y = 0, 1, 0; z = 0, 0, 1')
-    """
+    """Return the attributes of the Dataset of a sweep, texts and numbers."""
     stored = _KEPT.get(plan.answers)
     words = path.description, dict(path.cases)
     if stored is None or stored[0] != words:

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
     from optipath.plan.plan import Plan
-    from optipath.sweeps.light_figures import LightAt
-    from optipath.sweeps.uncertain_value import UncertainValue
+    from optipath.sweeps.light_figures import LightAt, UncertainValue
 
 
 _NOISES = 4.0

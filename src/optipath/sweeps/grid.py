@@ -116,13 +116,7 @@ _LITTLE, _MOST_BYTES = 2**26, 2**9
 
 
 def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
-    """Refuse a sweep in memory that takes more than there is.
-
-    >>> import optipath as op
-    >>> from optipath.sweeps.axes import grid_of
-    >>> plan = op.load_preset("malus").compose()
-    >>> refuse_more_than_free(plan, grid_of(plan.inputs, {"angle": [0.1, 0.2]}))
-    """
+    """Refuse a sweep in memory that takes more than there is."""
     if grid.points * _MOST_BYTES <= _LITTLE:
         return
     needed = grid.points * bytes_of_a_point(plan, grid.points)
@@ -140,23 +134,14 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
 
 
 def bytes_of_a_point(plan: Plan, points: int) -> int:
-    """Return how many bytes a run takes for each point: its results, and what is made on the way.
-
-    >>> import optipath as op
-    >>> bytes_of_a_point(op.load_preset("malus").compose(), 1_000_000)
-    32
-    """
+    """Return how many bytes a run takes for each point, with what is made on the way."""
     # Jones columns keep exponents, as what is run step by step does.
     stepped = plan.composing == "jones" or "step by step" in plan.engine_for(points)
     return plan.answers.question.numbers(stepped=stepped) * np.dtype(plan.dtype).itemsize
 
 
 def free_memory() -> int:
-    """Return how many bytes this process may still take.
-
-    >>> free_memory() > 2**20
-    True
-    """
+    """Return how many bytes this process may still take."""
     try:
         psutil: Any = import_module("psutil")  # Dask's cluster brings it.
     except ImportError:

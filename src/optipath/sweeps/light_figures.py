@@ -1,4 +1,4 @@
-"""Figures of light that have an uncertainty, and how they follow from Stokes vectors."""
+"""Values with an uncertainty, and the figures of light that get one from them."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ import numpy as np
 from optipath.errors import AngleWarning, ParameterError, listed, unknown
 from optipath.light.polarization_state import length
 from optipath.light.quantities import DERIVED, QUANTITIES, Shares
+from optipath.values.arrays import Unchanging, locked, same_fields
+from optipath.values.units import dimension_of, displayed, format_range
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -19,7 +21,6 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
     from optipath.plan.plan import Plan
-    from optipath.sweeps.uncertain_value import UncertainValue
 
 
 STOKES = 4
@@ -58,11 +59,7 @@ def rounding_of(light: Light) -> npt.NDArray[np.float64]:
 
 
 def place_of(quantity: object) -> int:
-    """Return the place of a quantity among the figures.
-
-    >>> place_of("intensity"), place_of("S3"), place_of("dop"), place_of("DoP")
-    (0, 3, 4, 4)
-    """
+    """Return the place of a quantity among the figures."""
     if faults := unknown("quantity", quantity, _NAMES):
         raise ParameterError(*faults)
     return _NAMES[quantity]  # type: ignore[index]
@@ -88,6 +85,56 @@ def _at_least(noise: Any, *components: Any) -> Any:
     """Return the length of a vector, NaN where it is no more than noise."""
     long = length(*components)
     return np.where(long > noise, long, np.nan)
+
+
+@dataclass(frozen=True, eq=False)
+class UncertainValue(Unchanging):
+    """A value of a parameter, or a batch of them, with its standard uncertainty; angles in rad."""
+
+    name: str
+    value: npt.NDArray[np.float64]
+    sigma: npt.NDArray[np.float64]
+    low: float
+    high: float
+    unit: str
+
+    def __post_init__(self) -> None:
+        """Keep copies, which nobody can change."""
+        for name in ("value", "sigma"):
+            object.__setattr__(self, name, locked(np.array(getattr(self, name))))
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
+    def allows(self, numbers: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+        """Return which numbers are within the range."""
+        return (numbers >= self.low) & (numbers <= self.high)
+
+    @property
+    def leaves_its_range(self) -> bool:
+        """Whether a value of the range is less than a standard uncertainty from its ends."""
+        ends = self.value - self.sigma, self.value + self.sigma
+        return not all(bool(np.all(self.allows(end))) for end in ends)
+
+    @property
+    def scale(self) -> npt.NDArray[np.float64]:
+        """What a change of the value is small against, of its shape."""
+        size = np.abs(self.value)
+        if dimension_of(self.unit) in ("", "angle"):
+            return np.maximum(size, 1.0)
+        return np.where(size > 0.0, size, np.where(self.sigma > 0.0, self.sigma, 1.0))
+
+    @property
+    def range_text(self) -> str:
+        """The range in words."""
+        return format_range(self.low, self.high, self.unit)
+
+    def __str__(self) -> str:
+        value, sigma = self.value, self.sigma
+        if value.size != 1:
+            return f"{self.name}, shape {value.shape}"
+        number, spread = (displayed(float(n.item()), self.unit) for n in (value, sigma))
+        return f"{self.name} = {number} +- {spread}"
 
 
 @dataclass(frozen=True, eq=False)

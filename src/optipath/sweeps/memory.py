@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
-from math import prod
 from typing import TYPE_CHECKING, Any, Self
 from uuid import uuid4
 
 import numpy as np
-import xarray as xr
 from xarray.backends import BackendArray
 from xarray.core import indexing
 
@@ -17,18 +14,13 @@ from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.quantities import COMPONENTS, DERIVED
 from optipath.plan.noise import noise_at
-from optipath.plan.reading import pieces
-from optipath.sweeps.datasets import (
-    attributes_of,
-    coordinates_of,
-    dataset_attributes,
-    dimensions_of,
-)
+from optipath.sweeps.datasets import detectors_of, regions, sweep_dataset
 from optipath.sweeps.grid import refuse_more_than_free
-from optipath.sweeps.labels import detectors_of, variable_names
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import xarray as xr
 
     from optipath.composer.composer import Composer
     from optipath.light.quantities import LightQuantity
@@ -43,90 +35,50 @@ def swept_in_memory(
     path: PathGraph, plan: Plan, grid: SweepGrid, composer: Composer | None = None
 ) -> xr.Dataset:
     """Return the light of a grid."""
-    names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
-    coords = coordinates_of(grid, plan)
-    refuse_more_than_free(plan, grid.varied)
-    result = plan.answers.lights(grid.given())
-    lights = tuple([SweptLight(plan, grid, name, result[name]) for name in detectors_of(plan)])
-    variables: dict[str, Any] = {}
-    each = zip(*[light.components for light in lights], strict=True)
-    for quantity, parts in zip(COMPONENTS, each, strict=True):
-        numbers = parts[0] if len(parts) == 1 else np.stack(parts)
-        variables[quantity.variable] = dims, numbers, attributes_of(quantity)
-    for quantity in DERIVED:
-        name = names[quantity.variable]
-        variables[name] = dims, derived(quantity, lights), attributes_of(quantity)
-    return xr.Dataset(variables, coords, dataset_attributes(path, plan, composer))
+
+    def data() -> dict[str, Any]:
+        refuse_more_than_free(plan, grid.varied)
+        found = plan.answers.lights(grid.given())
+        lights = tuple([SweptLight(plan, grid, name, found[name]) for name in detectors_of(plan)])
+        results: dict[str, Any] = {each.variable: derived(each, lights) for each in DERIVED}
+        parts = zip(*[light.components for light in lights], strict=True)
+        for each, several in zip(COMPONENTS, parts, strict=True):
+            results[each.variable] = several[0] if len(several) == 1 else np.stack(several)
+        return results
+
+    return sweep_dataset(path, plan, grid, composer, data)
 
 
 _AT_ONCE = 1 << 17
 """Of how many lights something is computed at a time: what is made on the way stays small."""
 
 
-@dataclass(frozen=True, eq=False)
 class SweptLight:
-    """The light of a run at one detector: stokes (..., 4)."""
+    """The light of a run at one detector: its components are views that cannot be written to."""
 
-    plan: Plan
-    grid: SweepGrid
-    detector: str
-    stokes: Any
-
-    @property
-    def dtype(self) -> np.dtype[Any]:
-        """The precision of the plan."""
-        return np.dtype(self.plan.dtype)
-
-    @property
-    def components(self) -> tuple[Array, ...]:
-        """S0 to S3, of the shape of the grid: views that cannot be written to."""
-        stokes = self.stokes
+    def __init__(self, plan: Plan, grid: SweepGrid, detector: str, stokes: Any) -> None:
+        self.plan, self.grid, self.detector = plan, grid, detector
+        self.dtype = np.dtype(plan.dtype)
         parts = stokes if type(stokes) is tuple else np.moveaxis(np.asarray(stokes), -1, 0)
-        return tuple(np.broadcast_to(part, self.grid.shape) for part in parts)
-
-    def part(self, region: Sequence[slice]) -> Light:
-        """Return the light of a part of what was run, which knows what of it is noise."""
-        ran = self.grid.varied
-        # Values of the part alone, so that nothing of the whole is looked at for its noise.
-        argument = ran.given(region)
-        noise = (noise_at, self.plan.answers, self.detector, argument, ())
-
-        def cut(numbers: Any) -> Array:
-            return np.broadcast_to(numbers, ran.shape)[tuple(region)]
-
-        if type(self.stokes) is tuple:
-            parts: Any = tuple(map(cut, self.stokes))
-        else:
-            parts = np.broadcast_to(self.stokes, (*ran.shape, 4))[*region, :]
-        return Light.of(parts, Frame(), noise=noise)
+        self.components = tuple([np.broadcast_to(part, grid.shape) for part in parts])
 
     def computed(self, quantity: LightQuantity, key: Sequence[int | slice]) -> Array:
         """Return a quantity of a part of the grid."""
-        axes = [
-            _places(range(size), index) for size, index in zip(self.grid.shape, key, strict=True)
+        cuts = [
+            index if isinstance(index, slice) else slice(index, index + 1 or None) for index in key
         ]
-        whole = tuple(map(len, axes))
-        for place, size in enumerate(self.grid.varied.shape):
-            if size < self.grid.shape[place]:
-                axes[place] = range(min(len(axes[place]), 1))
-        shape = tuple(map(len, axes))
-        result = np.empty(prod(shape), self.dtype)
-        for piece in pieces(shape, _AT_ONCE) if result.size else ():
-            where = (*piece.where, *[slice(None)] * (len(axes) - len(piece.where)))
-            several = [_places(axis, index) for axis, index in zip(axes, where, strict=True)]
-            light = self.part([slice(axis.start, axis.stop, axis.step) for axis in several])
-            result[piece.start : piece.stop] = np.ravel(quantity.of(light))
-        ends = tuple(slice(None) if isinstance(index, slice) else 0 for index in key)
-        result = result.reshape(shape)
-        return (result if shape == whole else np.broadcast_to(result, whole).copy())[ends]
-
-
-def _places(axis: range, index: int | slice) -> range:
-    """Return the places of an axis that an index takes."""
-    if isinstance(index, slice):
-        return axis[index]
-    place = axis[index]
-    return range(place, place + 1)
+        part = self.grid.part(cuts)
+        ran = part.varied
+        held = [slice(size) for size in ran.shape]
+        stokes = [each[*cuts][*held] for each in self.components]
+        result = np.empty(ran.shape, self.dtype)
+        for region in regions(ran.shape, _AT_ONCE) if result.size else ():
+            # Values of the part alone, so that nothing of the whole is looked at for its noise.
+            noise = (noise_at, self.plan.answers, self.detector, ran.given(region), ())
+            light = Light.of(tuple([each[region] for each in stokes]), Frame(), noise=noise)
+            result[region] = quantity.of(light)
+        ends = tuple([slice(None) if isinstance(index, slice) else 0 for index in key])
+        return (result if ran is part else np.broadcast_to(result, part.shape).copy())[ends]
 
 
 class DerivedVariable(BackendArray):

@@ -12,14 +12,12 @@ from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.first_order import Spread
 from optipath.sweeps.light_figures import STOKES, difference, figures_of, rounding_of
 from optipath.sweeps.propagation import notes_of_lost_figures
-from optipath.sweeps.uncertain_value import root_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
 
     from optipath.light.light import Light
-    from optipath.sweeps.light_figures import LightAt
-    from optipath.sweeps.uncertain_value import UncertainValue
+    from optipath.sweeps.light_figures import LightAt, UncertainValue
     from optipath.values.precision import Numbers
 
 
@@ -28,11 +26,7 @@ PATHS = 1 << 17
 
 
 def samples_at_once(shape: tuple[int, ...]) -> int:
-    """Return how many samples of a batch of some shape run at once.
-
-    >>> samples_at_once((1000,))
-    131
-    """
+    """Return how many samples of a batch of some shape run at once."""
     return max(1, PATHS // max(1, prod(shape)))
 
 
@@ -111,7 +105,7 @@ class DrawnSamples:
         self.count, self._seed, self._axes = count, seed, axes
         self._places = {each.name: place for each, place in zip(uncertain, places, strict=True)}
         self._groups = [
-            ([uncertain[place] for place in group], root_of(correlation[np.ix_(group, group)]))
+            ([uncertain[place] for place in group], _root_of(correlation[np.ix_(group, group)]))
             for group in _groups(correlation, places)
         ]
         self.outside = dict.fromkeys([each.name for each in uncertain], 0)
@@ -177,6 +171,12 @@ def _groups(correlation: Numbers, places: Sequence[int]) -> list[list[int]]:
     order = sorted(range(len(places)), key=places.__getitem__)
     groups = [[other for other in order if together[one, other]] for one in order]
     return [group for one, group in zip(order, groups, strict=True) if group[0] == one]
+
+
+def _root_of(matrix: Numbers) -> Numbers:
+    """Return a root R of a matrix of coefficients, R @ R.T, also where it is singular."""
+    values, vectors = np.linalg.eigh(matrix)
+    return np.asarray((vectors * np.sqrt(np.maximum(values, 0.0))) @ vectors.T)
 
 
 def _inside(each: UncertainValue, samples: Any) -> Any:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.light.light import Light
-    from optipath.sweeps.uncertain_value import UncertainValue
+    from optipath.sweeps.light_figures import UncertainValue
 
     Array = npt.NDArray[np.float64]
 
@@ -31,8 +31,8 @@ class Propagation(Unchanging):
 
     Quantities are named as attributes of `Light`, ``"intensity"``, ``"dop"``, ``"dolp"``,
     ``"aop"``, ``"ellipticity"``, ``"psi"`` and ``"delta"``, or ``"S0"`` to ``"S3"``; angles are in
-    radians. What is not defined is NaN, and `notes` say why. Arrays are read-only. Two are equal
-    if all fields are, of which NaN equals NaN.
+    radians; another name is a `ParameterError`. What is not defined is NaN, and `notes` say why.
+    Arrays are read-only. Two are equal if all fields are, of which NaN equals NaN.
 
     Attributes
     ----------
@@ -85,11 +85,6 @@ class Propagation(Unchanging):
     def uncertainty_of(self, quantity: str) -> Array:
         """Return the standard uncertainty of a quantity, shape (...).
 
-        Raises
-        ------
-        ParameterError
-            If there is none of that name.
-
         Examples
         --------
         >>> import optipath as op
@@ -111,11 +106,6 @@ class Propagation(Unchanging):
         To the first order they add up to 1, or are all 0 where nothing varies; where values are
         correlated a share may be negative. Of samples each is what is left when that value
         varies alone (JCGM 101:2008, annex B): the rest is what values do together.
-
-        Raises
-        ------
-        ParameterError
-            If there is no quantity of that name.
         """
         return self._by_name(self.shares[..., place_of(quantity), :])
 
@@ -125,22 +115,11 @@ class Propagation(Unchanging):
         The change that slopes do not say, where a value is a standard uncertainty away from its
         best estimate, and with it another one, as a share of the uncertainty of the quantity.
         Infinite where slopes say that nothing varies, as at an extremum; 0 of samples.
-
-        Raises
-        ------
-        ParameterError
-            If there is no quantity of that name.
         """
         return self._by_name(self.left[..., place_of(quantity), :])
 
     def is_doubtful(self, quantity: str) -> npt.NDArray[np.bool_]:
-        """Return where the first order is doubtful, shape (...): more than a tenth is left.
-
-        Raises
-        ------
-        ParameterError
-            If there is no quantity of that name.
-        """
+        """Return where the first order is doubtful, shape (...): more than a tenth is left."""
         doubtful = self.left[..., place_of(quantity), :] > LARGEST
         return np.asarray(doubtful.any(axis=-1))
 
@@ -277,11 +256,7 @@ def _named(where: Any) -> str:
 
 
 def notes_of_lost_figures(missing: Any) -> list[str]:
-    """Return notes on figures (..., 10) that some samples do not have.
-
-    >>> notes_of_lost_figures(np.zeros(10, bool))
-    []
-    """
+    """Return notes on figures (..., 10) that some samples do not have."""
     if not np.any(missing):
         return []
     return [f"nan: {_named(missing)}: some samples do not have it, as circular light has no AoP"]

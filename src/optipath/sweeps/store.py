@@ -1,4 +1,4 @@
-"""Store of finished blocks: a Zarr group, in a folder or at a URL, that xarray opens.
+"""Jobs of blocks, and the store of those that are done: a Zarr group that xarray opens.
 
 The values of a block are written first and its mark last, so interruption leaves no false block,
 and two runs that share a store write the same bits. The mark, a row of ``blocks/done``, is a digest
@@ -16,7 +16,7 @@ from functools import cached_property
 from hashlib import sha256
 from itertools import zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
 
 import numpy as np
 import zarr
@@ -25,15 +25,12 @@ from zarr.errors import ContainsArrayError
 from zarr.storage import FsspecStore, LocalStore
 
 from optipath.errors import JobError, OptipathError, StoreWarning, shown
-from optipath.sweeps.jobs import StoredArray
 from optipath.values.angles import calls_up
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     import numpy.typing as npt
-
-    from optipath.sweeps.jobs import BlockJob, WholeArray
 
 
 FORMAT = 3
@@ -41,6 +38,54 @@ FORMAT = 3
 
 _OTHER_PLACE = "take another name, or delete it"
 _RECORD, _MARKS = "blocks", "blocks/done"
+
+
+class StoredArray(NamedTuple):
+    """An array that blocks fill, part by part; each chunk belongs to one block."""
+
+    dims: tuple[str, ...]
+    shape: tuple[int, ...]
+    chunks: tuple[int, ...]
+    dtype: str = "float64"
+    attrs: Mapping[str, Any] = {}
+
+
+class WholeArray(NamedTuple):
+    """A small array that is written when the store is made, such as a coordinate."""
+
+    dims: tuple[str, ...]
+    values: npt.NDArray[Any]
+    attrs: Mapping[str, Any] = {}
+
+
+class BlockJob(Protocol):
+    """A large job, cut into blocks that are computed each by itself, in any order."""
+
+    @property
+    def identity(self) -> str:
+        """All of what is computed, a line each: two jobs with one text come to the same bits."""
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+
+    @property
+    def arrays(self) -> Mapping[str, StoredArray]:
+        """What is kept, by name."""
+
+    @property
+    def coords(self) -> Mapping[str, WholeArray]:
+        """What is known before, by name: the coordinates of the arrays."""
+
+    @property
+    def attrs(self) -> Mapping[str, Any]:
+        """What the whole is, as JSON can hold it."""
+
+    def places(self, number: int) -> Mapping[str, tuple[slice, ...]]:
+        """Return which part of each array a block is."""
+
+    def task(self, number: int) -> Callable[[], Mapping[str, npt.NDArray[Any]]]:
+        """Return what computes the values of a block; it is pickled to workers."""
 
 
 @dataclass(frozen=True)
@@ -58,15 +103,25 @@ class BlockStore:
         seal = sha256(json.dumps(record).encode()).hexdigest()
         is_free = _is_free(place)
         store = cls(place if "://" in place else str(Path(place).resolve()), seal, is_free)
-        with store._writing(), store._reading():
-            if store.is_new:
-                group = store.group.require_group(_RECORD)
-                group.attrs.update({**record, "seal": seal})
-            store._check_record(record)
-            if _MARKS not in store.group:
-                _make(store.group, job)
-            store._check_coords(job.coords)
+        with store._writing():
+            store._open(job, record)
         return store
+
+    def _open(self, job: BlockJob, record: Mapping[str, Any]) -> None:
+        try:
+            if self.is_new:
+                group = self.group.require_group(_RECORD)
+                group.attrs.update({**record, "seal": self.seal})
+            self._check_record(record)
+            if _MARKS not in self.group:
+                _make(self.group, job)
+            self._check_coords(job.coords)
+        except (OptipathError, OSError):
+            raise
+        except Exception:  # noqa: BLE001 - Zarr may raise anything
+            raise JobError(
+                f"the metadata of the store '{self.place}' are damaged; {_OTHER_PLACE}"
+            ) from None
 
     def __getstate__(self) -> dict[str, Any]:
         # What is open stays here.
@@ -161,17 +216,15 @@ class BlockStore:
             raise JobError(
                 f"'{place}' is there, and is no store of blocks; {_OTHER_PLACE}"
             ) from None
-        version = result.get("format")
-        if version != FORMAT and isinstance(version, int):
-            raise JobError(
-                f"'{place}' has format {version}, and this version of optipath knows {FORMAT}; "
-                f"use the version that made it, or {_OTHER_PLACE}"
-            )
         if result == {**record, "seal": self.seal}:
             return
-        there = result.get("lines")
-        pairs = zip_longest(there, record["lines"], fillvalue="") if isinstance(there, list) else ()
-        for one, other in pairs:
+        lines = result.get("lines")
+        there = [
+            f"format {result.get('format')}",
+            *(lines if isinstance(lines, list) else record["lines"]),
+        ]
+        here = [f"format {FORMAT}", *record["lines"]]
+        for one, other in zip_longest(there, here, fillvalue=""):
             if one != other:
                 raise JobError(
                     f"'{place}' holds blocks of another job: it has {shown(one)}, where this one "
@@ -185,18 +238,6 @@ class BlockStore:
             there, given = _read(self.arrays[name], ...), whole.values
             if there is None or there.dtype != given.dtype or there.tobytes() != given.tobytes():
                 raise JobError(f"'{name}' of the store '{self.place}' is damaged; {_OTHER_PLACE}")
-
-    @contextmanager
-    def _reading(self) -> Iterator[None]:
-        """Refuse metadata that cannot be read, of which Zarr may raise anything."""
-        try:
-            yield
-        except (OptipathError, OSError):
-            raise
-        except Exception:  # noqa: BLE001 - see above
-            raise JobError(
-                f"the metadata of the store '{self.place}' are damaged; {_OTHER_PLACE}"
-            ) from None
 
     @contextmanager
     def _writing(self) -> Iterator[None]:

@@ -7,7 +7,6 @@ import secrets
 import shutil
 import sys
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property, partial
 from hashlib import sha256
 from importlib.metadata import version
@@ -20,8 +19,8 @@ import xarray as xr
 
 from optipath.errors import OptipathError, ParameterError, PathError, shown
 from optipath.sweeps.blocks import keep_blocks
-from optipath.sweeps.chunks import run_block
-from optipath.sweeps.jobs import StoredArray, WholeArray, place_of_blocks
+from optipath.sweeps.chunks import ChunkedSweep, run_block
+from optipath.sweeps.store import StoredArray, WholeArray
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -30,7 +29,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.light.quantities import LightQuantity
-    from optipath.sweeps.chunks import ChunkedSweep
     from optipath.sweeps.grid import SweepAxis, SweepGrid
     from optipath.sweeps.plan_recipe import PlanRecipe
 
@@ -38,13 +36,7 @@ if TYPE_CHECKING:
 
 
 def place_of_store(store: str | PathLike[str]) -> str:
-    """Return where a sweep is to be kept.
-
-    >>> place_of_store("sweep.csv")
-    Traceback (most recent call last):
-    optipath.errors.ParameterError: store 'sweep.csv' is neither a Zarr store nor a NetCDF file: \
-give a name that ends in .zarr or .nc, such as 'sweep.zarr'
-    """
+    """Return where a sweep is to be kept."""
     is_path = isinstance(store, str | os.PathLike)
     place = os.fspath(store).rstrip("/") if is_path else ""
     # A URL of a file of NetCDF has nothing beside it where blocks could be kept.
@@ -69,40 +61,34 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
     return result
 
 
-@dataclass(frozen=True)
-class SweepJob:
+class SweepJob(ChunkedSweep):
     """A sweep that is computed block by block and kept; see `BlockJob`."""
 
-    chunked: ChunkedSweep
-
-    def __post_init__(self) -> None:
-        """Refuse what stores do not have."""
-        if names := self.chunked.recipe.without_source:
+    @classmethod
+    def of(cls, chunked: ChunkedSweep) -> SweepJob:
+        """Return the job of a sweep; refuse what stores do not have."""
+        if names := chunked.recipe.without_source:
             raise PathError(
                 f"element class '{names[0]}' is defined in no file by which a store could tell it "
                 f"from others; put it at the top level of a module and import it, or leave store= "
                 f"out"
             )
-        if self.chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
+        if chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
             raise ParameterError(
                 "stores have no numbers of dtype 'longdouble'; leave store= out, or give "
                 "composer=op.Composer(dtype='float64')"
             )
-
-    @property
-    def grid(self) -> SweepGrid:
-        """All that is swept."""
-        return self.chunked.grid
+        return cls(chunked.recipe, chunked.grid, chunked.quantities, chunked.dataset)
 
     @cached_property
     def sizes(self) -> dict[str, int]:
         """How many values a block has along each dimension of the grid."""
-        return {name: self.chunked.dataset.chunksizes[name][0] for name in self.grid.sizes}
+        return {name: self.dataset.chunksizes[name][0] for name in self.grid.sizes}
 
     @cached_property
     def arrays(self) -> dict[str, StoredArray]:
         """The variables, by name."""
-        sizes = self.chunked.dataset.chunksizes
+        sizes = self.dataset.chunksizes
         return {
             str(name): StoredArray(
                 tuple(map(str, each.dims)),
@@ -111,27 +97,29 @@ class SweepJob:
                 str(each.dtype),
                 each.attrs,
             )
-            for name, each in self.chunked.dataset.data_vars.items()
+            for name, each in self.dataset.data_vars.items()
         }
 
     @property
     def coords(self) -> dict[str, WholeArray]:
         """The coordinates, by name."""
         return {
-            str(name): WholeArray(tuple(map(str, each.dims)), _fixed(each.to_numpy()), each.attrs)
-            for name, each in self.chunked.dataset.coords.items()
+            str(name): WholeArray(
+                tuple(map(str, each.dims)), _as_stored(each.to_numpy()), each.attrs
+            )
+            for name, each in self.dataset.coords.items()
         }
 
     @property
     def attrs(self) -> dict[str, Any]:
         """Those of the Dataset."""
-        return self.chunked.dataset.attrs
+        return self.dataset.attrs
 
     @property
     def identity(self) -> str:
         """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
         types = {name: each.dtype for name, each in self.arrays.items()}
-        return sweep_identity(self.chunked.recipe, self.grid, self.sizes, types)
+        return sweep_identity(self.recipe, self.grid, self.sizes, types)
 
     @property
     def _counts(self) -> tuple[int, ...]:
@@ -145,14 +133,15 @@ class SweepJob:
 
     def region(self, number: int) -> tuple[slice, ...]:
         """Return the part of the grid that a block is, counted from 0 in the order of the axes."""
-        starts = [
-            int(place) * size
-            for place, size in zip(
-                np.unravel_index(number, self._counts), self.sizes.values(), strict=True
-            )
-        ]
-        cuts = zip(starts, self.sizes.values(), self.grid.shape, strict=True)
-        return tuple([slice(start, min(start + size, count)) for start, size, count in cuts])
+        places = np.unravel_index(number, self._counts)
+        return tuple(
+            [
+                slice(int(place) * size, min((int(place) + 1) * size, count))
+                for place, size, count in zip(
+                    places, self.sizes.values(), self.grid.shape, strict=True
+                )
+            ]
+        )
 
     def places(self, number: int) -> dict[str, tuple[slice, ...]]:
         """Return which part of each variable a block is."""
@@ -163,7 +152,7 @@ class SweepJob:
     def task(self, number: int) -> partial[dict[str, npt.NDArray[Any]]]:
         """Return what computes a block, with its own part of the axes: whole ones may be large."""
         grid = self.grid.part(self.region(number))
-        return partial(compute_block, number, self.chunked.recipe, grid, self.chunked.quantities)
+        return partial(compute_block, number, self.recipe, grid, self.quantities)
 
 
 def compute_block(
@@ -177,13 +166,13 @@ def compute_block(
     return {name: light.of(each) for name, each in quantities.items()}
 
 
-def _fixed(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Return words as words of a fixed length, which stores have."""
-    return values.astype(str) if values.dtype.kind == "O" else values
-
-
 LAYOUT = 1
 """The version of what a store of a sweep has in it."""
+
+
+def _as_stored(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return words as words of a fixed length, which stores have."""
+    return values.astype(str) if values.dtype.kind == "O" else values
 
 
 def sweep_identity(
@@ -231,6 +220,14 @@ _FAULTS = (OSError, RuntimeError, ValueError, KeyError, TypeError, AttributeErro
 """What is raised, at various depths, by bytes that are no NetCDF."""
 
 
+def place_of_blocks(store: str) -> str:
+    """Return where the blocks of a sweep are until all are there."""
+    if not store.endswith(".nc"):
+        return store
+    file = Path(store)
+    return str(file.with_name(f".{file.name}.blocks"))
+
+
 def stored_in_netcdf(
     job: SweepJob, file: Path, scheduler: Any, tell: Callable[[int, int], None] | None
 ) -> xr.Dataset:
@@ -244,10 +241,7 @@ def stored_in_netcdf(
         return _opened(file, identity)
     place = place_of_blocks(str(file))
     try:
-        blocks = keep_blocks(job, place, scheduler, tell)
-        _write(
-            file, blocks.store, identity, {name: each.chunks for name, each in job.arrays.items()}
-        )
+        _write(file, keep_blocks(job, place, scheduler, tell).store, identity, job)
     except (OptipathError, *_FAULTS):
         # Another run that was faster has put the file there, and removed the store.
         if not file.exists():
@@ -257,10 +251,10 @@ def stored_in_netcdf(
     return result
 
 
-def _write(file: Path, store: Any, identity: str, chunks: Mapping[str, tuple[int, ...]]) -> None:
+def _write(file: Path, store: Any, identity: str, job: SweepJob) -> None:
     """Write what a store holds beside the place of a file, and put it there."""
     draft = file.with_name(f".{secrets.token_hex(8)}.draft")
-    encoding = {name: {"chunksizes": sizes} for name, sizes in chunks.items()}
+    encoding = {name: {"chunksizes": each.chunks} for name, each in job.arrays.items()}
     try:
         with xr.open_zarr(store) as stored:
             message = stored.assign_attrs({_IDENTITY: identity})
@@ -292,13 +286,7 @@ _WIDTH = 40
 
 
 def progress_line(done: int, total: int) -> None:
-    """Write over the last line of the terminal how far a sweep is.
-
-    >>> from contextlib import redirect_stderr
-    >>> with redirect_stderr(sys.stdout):
-    ...     progress_line(4, 4)
-    [########################################] 4 of 4 blocks
-    """
+    """Write over the last line of the terminal how far a sweep is."""
     filled = _WIDTH * done // total
     if done and filled == _WIDTH * (done - 1) // total:
         return  # It looks the same.

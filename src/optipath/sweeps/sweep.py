@@ -55,7 +55,7 @@ def sweep(
         return chunked.dataset
     from optipath.sweeps.stored import SweepJob, stored_sweep  # noqa: PLC0415 - Zarr takes its time
 
-    return stored_sweep(SweepJob(chunked), place, scheduler, progress=progress)
+    return stored_sweep(SweepJob.of(chunked), place, scheduler, progress=progress)
 
 
 def _plan(path: PathGraph, composer: Composer | None) -> Plan:

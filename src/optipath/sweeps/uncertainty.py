@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,13 +11,13 @@ import numpy as np
 from optipath.composer.composer import Composer
 from optipath.errors import OptipathError, ParameterError, check_named, collecting, shown, unknown
 from optipath.materials.material import Material
+from optipath.paths.path_graph import PathGraph
 from optipath.plan.answers import only
 from optipath.sweeps.axes import unknown_names
 from optipath.sweeps.first_order import changes_of, nonlinearity_of, slopes_of, spread_of
-from optipath.sweeps.light_figures import LightAt
+from optipath.sweeps.light_figures import LightAt, UncertainValue
 from optipath.sweeps.monte_carlo import samples_at_once, spread_of_samples
 from optipath.sweeps.propagation import Propagation, notes_of_first_order
-from optipath.sweeps.uncertain_value import UncertainValue, read_correlation
 from optipath.values.arrays import array_of, broadcast_fault, enough_for, first_place, numbers_for
 from optipath.values.jax_values import check_known
 from optipath.values.precision import is_whole, whole_number
@@ -24,12 +25,11 @@ from optipath.values.units import dimension_of, format_quantity, parse_quantity
 from optipath.values.use import axes_for
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Sequence
 
     import numpy.typing as npt
 
     from optipath.light.light import Light
-    from optipath.paths.path_graph import PathGraph
     from optipath.plan.inputs import Inputs
 
 
@@ -39,90 +39,112 @@ _BYTES = 1100
 _BYTES_OF_A_SAMPLE = 2600
 """What a path takes in each sample that runs at once; those of other blocks take nothing."""
 
+METHODS = ("auto", "gradients", "differences", "monte-carlo")
+_SAMPLES = 10_000
+_FEWEST, _MOST = 2, 10_000_000
+OPTIONS = frozenset(PathGraph.propagate.__kwdefaults__ or ())
+"""What `PathGraph.propagate` takes by name beside parameters."""
+
 
 def propagate(
     path: PathGraph,
     unnamed: tuple[object, ...],
     arguments: dict[str, Any],
-    options: PropagateOptions,
+    *,
+    method: str,
+    samples: int | None,
+    seed: int | None,
+    correlation: object,
+    detector: str | None,
+    composer: Composer | None,
 ) -> Propagation:
     """Return the light of a path with its uncertainty; see `PathGraph.propagate`."""
     plan = path.compose()
     check_named("propagate", unnamed, plan.inputs.open)
-    if clashes := options.clashes(plan.inputs):
-        raise ParameterError(*clashes)
-    exact, uncertain, faults = read_uncertain(plan.inputs, arguments)
+    if clashes := [name for name in plan.inputs.open if name in OPTIONS]:
+        raise ParameterError(
+            *(
+                f"'{name}' is an option of propagate() and a parameter of this path; "
+                f"path.bind({name}=...) gives the parameter its value"
+                for name in clashes
+            )
+        )
+    exact, uncertain, faults = _read_all(plan.inputs, arguments)
     # A value whose uncertainty cannot be read is one of them all the same.
     names = [n for n, value in arguments.items() if isinstance(value, tuple) and n not in exact]
-    correlation, wrong = read_correlation(options.correlation, names)
-    faults += options.faults() + wrong
-    detector, names_of = "", tuple(plan.program.detectors)
+    faults += _option_faults(method, samples, seed, composer)
+    matrix = _correlation_of(correlation, names, faults)
+    end, ends = "", tuple(plan.program.detectors)
     with collecting(faults):
-        example = f"propagate(detector='{names_of[0]}', ...)"
-        detector = only("detector", names_of, example, options.detector)
+        end = only("detector", ends, f"propagate(detector='{ends[0]}', ...)", detector)
     if faults:
         raise ParameterError(*faults)
-    composer = options.composer
     request = plan if composer is None else path.plan_by(composer)
     values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in arguments.items()}
     request.answers.large_angles.look(values)
     uncertainties = {name: arguments[name][1] for name in names}
     request.answers.large_angles.look(uncertainties, "the standard uncertainty of parameter")
-    light_at = LightAt(request, detector, exact, tuple(uncertain))
+    light_at = LightAt(request, end, exact, tuple(uncertain))
     light = light_at({})
-    if options.draws:
-        block = min(options.count, samples_at_once(light.shape)), *light.shape
+    if method == "monte-carlo":
+        count = _SAMPLES if samples is None else int(samples)
+        block = min(count, samples_at_once(light.shape)), *light.shape
         with enough_for(block, _BYTES_OF_A_SAMPLE, error=ParameterError):
-            return _by_samples(light_at, light, correlation, options)
+            return _by_samples(light_at, light, matrix, count, int(seed or 0))
     if composer is not None:
         exactly = replace(composer, engine="auto", dtype="float64", tolerance=None, model="auto")
         light_at = replace(light_at, plan=exactly.compose(path))
     with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
-        return _to_first_order(light_at, light, correlation, options)
+        return _to_first_order(light_at, light, matrix, method)
 
 
 def _to_first_order(
-    light_at: LightAt,
-    light: Light,
-    correlation: npt.NDArray[np.float64],
-    options: PropagateOptions,
+    light_at: LightAt, light: Light, correlation: npt.NDArray[np.float64], method: str
 ) -> Propagation:
-    slopes, method, rounding = slopes_of(light_at, options.method)
+    slopes, found, rounding = slopes_of(light_at, method)
     center = light_at({})
     changes = changes_of(center, slopes, light_at.uncertain, rounding)
     spread = spread_of(changes, correlation)
     left = nonlinearity_of(light_at, center, changes, spread.uncertainties, correlation)
     notes = notes_of_first_order(light, light_at.uncertain, spread.uncertainties, left)
     mean = np.asarray(light.stokes, np.float64)
-    return Propagation(
-        light, mean, spread.covariance, light_at.uncertain, method, tuple(notes), *spread[1:], left
-    )
+    about = light_at.uncertain, found, tuple(notes)
+    return Propagation(light, mean, spread.covariance, *about, *spread[1:], left)
 
 
 def _by_samples(
-    light_at: LightAt,
-    light: Light,
-    correlation: npt.NDArray[np.float64],
-    options: PropagateOptions,
+    light_at: LightAt, light: Light, correlation: npt.NDArray[np.float64], count: int, seed: int
 ) -> Propagation:
-    count, seed = options.count, options.beginning
     spread, mean, notes = spread_of_samples(light_at, light, correlation, count, seed)
-    return Propagation(
-        light,
-        mean,
-        spread.covariance,
-        light_at.uncertain,
-        f"Monte Carlo, {count:,} samples, seed {seed}",
-        tuple(notes),
-        *spread[1:],
-        np.zeros_like(spread.shares),
-    )
+    about = light_at.uncertain, f"Monte Carlo, {count:,} samples, seed {seed}", tuple(notes)
+    left = np.zeros_like(spread.shares)
+    return Propagation(light, mean, spread.covariance, *about, *spread[1:], left)
+
+
+def _option_faults(method: str, samples: Any, seed: Any, composer: Any) -> list[str]:
+    result = unknown("method", method, METHODS)
+    is_known = not result
+    if composer is not None and not isinstance(composer, Composer):
+        result.append(f"composer must be an op.Composer(...), not {shown(composer)}")
+    if samples is not None and not is_whole(samples, _FEWEST, _MOST):
+        result.append(
+            f"samples must be a whole number within {_FEWEST} .. {_MOST:,}, not {shown(samples)}"
+        )
+    if seed is not None:
+        result += whole_number("seed", seed, 0)
+    drawn = [name for name, n in (("samples", samples), ("seed", seed)) if n is not None]
+    if drawn and is_known and method != "monte-carlo":
+        result.append(
+            f"method='{method}' draws no samples; leave {' and '.join(drawn)} out, or write "
+            f"method='monte-carlo'"
+        )
+    return result
 
 
 _PAIR = 2
 
 
-def read_uncertain(
+def _read_all(
     inputs: Inputs, arguments: Mapping[str, Any]
 ) -> tuple[dict[str, Any], list[UncertainValue], list[str]]:
     """Return what is exact, what is uncertain, and what is wrong with either."""
@@ -204,63 +226,49 @@ def _sigma(inputs: Inputs, name: str, sigma: Any) -> Any:
     return array.astype(np.float64)
 
 
-METHODS = ("auto", "gradients", "differences", "monte-carlo")
-_SAMPLES, _SEED = 10_000, 0
-_FEWEST, _MOST = 2, 10_000_000
+_ROUNDING = 1e-12
+_EXAMPLE = '{("n1", "k1"): 0.3}'
 
 
-@dataclass(frozen=True)
-class PropagateOptions:
-    """The options of `PathGraph.propagate`, as they are given."""
-
-    method: str = "auto"
-    samples: int | None = None
-    seed: int | None = None
-    correlation: object = None
-    detector: str | None = None
-    composer: Composer | None = None
-
-    @property
-    def draws(self) -> bool:
-        """Whether samples are drawn."""
-        return self.method == METHODS[-1]
-
-    @property
-    def count(self) -> int:
-        """How many samples are drawn."""
-        return _SAMPLES if self.samples is None else int(self.samples)
-
-    @property
-    def beginning(self) -> int:
-        """What random numbers begin with."""
-        return _SEED if self.seed is None else int(self.seed)
-
-    def clashes(self, inputs: Inputs) -> list[str]:
-        """Return what is said of parameters that are called as options, a sentence each."""
-        return [
-            f"'{each.name}' is an option of propagate() and a parameter of this path; "
-            f"path.bind({each.name}=...) gives the parameter its value"
-            for each in fields(self)
-            if each.name in inputs.open
-        ]
-
-    def faults(self) -> list[str]:
-        """Return what is wrong with them, a sentence each."""
-        result = unknown("method", self.method, METHODS)
-        is_known = not result
-        if self.composer is not None and not isinstance(self.composer, Composer):
-            result.append(f"composer must be an op.Composer(...), not {shown(self.composer)}")
-        if self.samples is not None and not is_whole(self.samples, _FEWEST, _MOST):
-            result.append(
-                f"samples must be a whole number within {_FEWEST} .. {_MOST:,}, "
-                f"not {shown(self.samples)}"
+def _correlation_of(
+    argument: Any, names: Sequence[str], faults: list[str]
+) -> npt.NDArray[np.float64]:
+    """Return the matrix (k, k) of correlation coefficients."""
+    matrix = np.eye(len(names))
+    if argument is None:
+        return matrix
+    if not isinstance(argument, Mapping):
+        faults.append(f"correlation must be a mapping such as {_EXAMPLE}, not {shown(argument)}")
+        return matrix
+    before = len(faults)
+    seen: list[set[int]] = []
+    for pair, coefficient in argument.items():
+        is_pair = isinstance(pair, tuple) and len(pair) == _PAIR and pair[0] != pair[1]
+        if not is_pair or any(name not in names for name in pair):
+            faults.append(
+                f"correlation is of pairs of parameters that have an uncertainty, such as "
+                f"{_EXAMPLE}, not of {shown(pair)}; there are: {', '.join(names)}"
             )
-        if self.seed is not None:
-            result += whole_number("seed", self.seed, 0)
-        drawn = [name for name in ("samples", "seed") if getattr(self, name) is not None]
-        if drawn and is_known and not self.draws:
-            result.append(
-                f"method='{self.method}' draws no samples; leave {' and '.join(drawn)} out, or "
-                f"write method='monte-carlo'"
+            continue
+        one, other = (names.index(name) for name in pair)
+        is_number = isinstance(coefficient, (int, float, np.number))
+        if not is_number or np.iscomplexobj(coefficient) or not -1.0 <= coefficient <= 1.0:
+            faults.append(
+                f"the correlation of {shown(pair)} is {shown(coefficient)}; give a number "
+                f"within -1 .. 1"
             )
-        return result
+        elif {one, other} in seen:
+            faults.append(f"the correlation of {shown(pair)} is given twice; give it once")
+        else:
+            seen.append({one, other})
+            matrix[one, other] = matrix[other, one] = coefficient
+    if (
+        len(faults) == before
+        and len(names)
+        and (least := np.linalg.eigvalsh(matrix)[0]) < -_ROUNDING
+    ):
+        faults.append(
+            f"no values can be correlated like this: the matrix of the coefficients has the "
+            f"eigenvalue {least:.3g}, and none may be negative; make the coefficients smaller"
+        )
+    return matrix

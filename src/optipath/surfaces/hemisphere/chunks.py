@@ -17,7 +17,7 @@ from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, PartSums, SensedBeam
 from optipath.surfaces.walk.code import digest_of
 from optipath.sweeps.blocks import active_client, keep_blocks
-from optipath.sweeps.jobs import StoredArray, WholeArray
+from optipath.sweeps.store import StoredArray, WholeArray
 
 if TYPE_CHECKING:
     from collections.abc import Callable
