@@ -132,7 +132,7 @@ def test_nothing_is_overwritten_and_no_table_there_in_part(run, refused, tmp_pat
         (tmp_path / name).unlink()
         assert not [*tmp_path.iterdir()]
     broken = Mock(side_effect=KeyboardInterrupt)
-    monkeypatch.setattr("optipath.cli.sweep_command.table_columns", broken)
+    monkeypatch.setattr("optipath.light.quantities.LightQuantity.shown_of", broken)
     assert run("sweep malus --angle 0:90:3 --out a.csv")[0] == 130
     assert not [*tmp_path.iterdir()]
 

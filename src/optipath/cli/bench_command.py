@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from rich.table import Table
 
 from optipath.cli.arguments import read_text, write
 from optipath.cli.console import JSON, PlainConsole, cell, headed, progress_bar, say, say_json
@@ -19,6 +18,10 @@ from optipath.paths.files.presets import beside, bound_preset, load_preset
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from rich.table import Table
+
     from optipath.cli.preset_command import Chosen
     from optipath.lab.bench import Report
     from optipath.paths.path_graph import PathGraph
@@ -86,32 +89,35 @@ def _opened(chosen: Chosen) -> PathGraph:
 def _tables(report: Report) -> list[Table]:
     from optipath.lab.bench import duration  # noqa: PLC0415 - not for every command
 
-    once = _table("done once", ["time"])
-    for name, milliseconds in report.single.items():
-        once.add_row(name, duration(1e-3 * milliseconds))
-    once.caption = ", ".join(f"{name} {number}" for name, number in report.software.items())
-    once.caption_justify = "left"
-    sizes = dict.fromkeys(row["paths"] for row in report.batches)
-    batches = _table("time a path, by the number of paths", [f"{size:,}" for size in sizes])
+    single = {name: [duration(1e-3 * time)] for name, time in report.single.items()}
     times = defaultdict(list)
     for row in report.batches:
         name = f"{row['engine']} {row['dtype']} {row['output']}"
         times[name].append(duration(1e-9 * row["ns_least"]))
-    for name, cells in times.items():
-        batches.add_row(name, *cells)
+    methods = {
+        f"{row['engine']} {row['method']}": [
+            duration(1e-9 * row["ns_least"]),
+            duration(row["first_s"]),
+        ]
+        for row in report.methods
+    }
+    once = _table("done once", ["time"], single)
+    once.caption = ", ".join(f"{name} {number}" for name, number in report.software.items())
+    once.caption_justify = "left"
+    sizes = [f"{size:,}" for size in dict.fromkeys(row["paths"] for row in report.batches)]
     paths = report.methods[0]["paths"]
-    methods = _table(f"methods, {paths:,} paths", ["time a path", "first call"])
-    for row in report.methods:
-        name = f"{row['engine']} {row['method']}"
-        methods.add_row(name, duration(1e-9 * row["ns_least"]), duration(row["first_s"]))
-    return [once, batches, methods]
+    return [
+        once,
+        _table("time a path, by the number of paths", sizes, times),
+        _table(f"methods, {paths:,} paths", ["time a path", "first call"], methods),
+    ]
 
 
-def _table(title: str, measured: list[str]) -> Table:
-    table = Table("", title=title, title_justify="left", box=None, header_style="bold")
-    table.columns[0].no_wrap = True
-    for name in measured:
-        table.add_column(name, justify="right", no_wrap=True)
+def _table(title: str, heads: list[str], rows: Mapping[str, list[str]]) -> Table:
+    labelled = [[name, *times] for name, times in rows.items()]
+    table = headed("", *heads, rows=labelled, right=1, title=title, box=None)
+    for column in table.columns:
+        column.no_wrap = True
     return table
 
 

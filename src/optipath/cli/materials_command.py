@@ -75,15 +75,13 @@ def _materials(
     page: str,
     incidence: str,
     *,
-    n: float | None,
-    k: float | None,
     digits: int,
     as_json: bool,
+    **own: float | None,
 ) -> None:
     """List materials by name, or tell n and k of one with --at."""
     name = " ".join(words)
     if wavelengths:
-        own = {"n": n, "k": k}
         report = material_report(name, page, wavelengths, incidence, own)
         say_json(report.as_json()) if as_json else report.print(digits)
         return

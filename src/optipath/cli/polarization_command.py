@@ -84,22 +84,19 @@ def _table(name: str, result: Polarization, digits: int) -> Table:
     """Return the numbers of each path, a column each."""
     indices = list(np.ndindex(result.exact.shape))
     shown = indices[:_PATHS]
-    table = headed(f"S0 at {name}")
-    for index in shown:
-        table.add_column(cell(str(list(index))) if index else "")
-    for head, powers in (("exact", result.exact), ("scalar: without polarisation", result.scalar)):
-        table.add_row(head, *(f"{powers[index]:.{digits}g}" for index in shown))
     shares = {"difference": result.difference}
     if (known := result.certificate) is not None:
         shares |= {"at least": known.lower - 1.0, "at most": known.upper - 1.0}
     for element, share in result.elements.items():
         if np.any(np.abs(share) > _SMALL):
             shares[f"by {element}"] = share
-    for head, share in shares.items():
-        table.add_row(cell(head), *(_percent(float(share[index])) for index in shown))
+    powers = {"exact": result.exact, "scalar: without polarisation": result.scalar}
+    rows = [[h, *(f"{one[index]:.{digits}g}" for index in shown)] for h, one in powers.items()]
+    rows += [[h, *(_percent(float(one[index])) for index in shown)] for h, one in shares.items()]
     if len(indices) > len(shown):
-        table.add_row(f"{len(indices) - len(shown)} more paths")
-    return table
+        rows.append([f"{len(indices) - len(shown)} more paths"])
+    heads = [str(list(index)) if index else "" for index in shown]
+    return headed(f"S0 at {name}", *heads, rows=rows)
 
 
 def _verdict(result: Polarization) -> str:

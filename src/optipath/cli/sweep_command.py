@@ -29,7 +29,7 @@ from optipath.errors import ParameterError, listed, printable, shown
 from optipath.light.printed import Numbers
 from optipath.light.quantities import PRINTED
 from optipath.sweeps.axes import grid_of
-from optipath.sweeps.datasets import regions, table_columns, table_heads
+from optipath.sweeps.datasets import csv_parts
 from optipath.values.columns import columns_of
 from optipath.values.files import message_of, written_whole
 
@@ -89,23 +89,20 @@ def zip_groups(
 
 def _faults(
     *,
-    as_json: bool,
     out: str | None,
     zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
-    chunks: str | None,
-    scheduler: str | None,
-    **_others: Any,
+    **options: Any,
 ) -> list[str]:
     """Return what is wrong with the options of a sweep, a sentence each."""
     faults = [] if out is None else out_faults(out)
-    if as_json and out is not None:
+    if options["as_json"] and out is not None:
         faults.append("--json prints what --out writes into a file; give one of them")
     faults += [
         f"--zip {shown(names)} names fewer than two parameters; write --zip NAME,NAME"
         for names in zip
         if len(zip_groups([names])[0]) < 2
     ]
-    idle = [name for name, value in (("--chunks", chunks), ("--scheduler", scheduler)) if value]
+    idle = [f"--{name}" for name in ("chunks", "scheduler") if options[name]]
     if idle and (out is None or Path(out).suffix not in _BLOCKS):
         faults.append(
             f"{listed(idle)} belong{'s' * (len(idle) == 1)} to a sweep that is written by "
@@ -161,8 +158,8 @@ def _sweep(
             f"a sweep has an axis at least; give {' or '.join([*ways, '--coords FILE.csv'])}, or "
             f"write 'optipath run' for single values"
         )
-    ending = "" if out is None else Path(out).suffix
-    if out is not None and ending in _BLOCKS:
+    file = Path(out or "")
+    if out and file.suffix in _BLOCKS:
         with block_bar(out) as progress:
             path.sweep(
                 zip=together,
@@ -174,17 +171,17 @@ def _sweep(
                 composer=composer,
                 **chosen.axes,
             )
-    elif out is not None and ending == ".csv":
-        write_csv(Path(out), plan, grid)
+    elif file.suffix == ".csv":
+        write_csv(file, plan, grid)
     else:
         outcome = outcome_of(chosen, path, plan, grid)
-        if out is not None:
-            write(Path(out), json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
+        if out:
+            write(file, json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
         elif as_json:
             say_json(outcome_as_json(outcome))
         else:
             print_sweep(outcome, digits)
-    if out is not None:
+    if out:
         say(f"wrote {out}: {sizes_text(grid)}")
 
 
@@ -193,14 +190,14 @@ sweep = PresetGroup("sweep", _sweep, (*COMPOSING, DIGITS, *SWEEPING), ranges=Tru
 
 def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
     """Write a line for each point of a grid, a part of them after the other."""
-    columns = table_heads(plan, grid)
+    parts = csv_parts(plan, grid)
+    heads = next(parts)  # Before there is a file: names may clash.
     unwritten = message_of(file, click.ClickException, "")
     with unwritten, written_whole(file) as stream, progress_bar(grid.points) as tell:
-        stream.write(",".join(columns).encode() + b"\n")
-        for region in regions(grid.shape):
-            rows = list(zip(*table_columns(plan, grid, region), strict=True))
-            stream.write("".join(f"{','.join(row)}\n" for row in rows).encode())
-            tell(file.name, advance=len(rows))
+        stream.write(heads.encode())
+        for part in parts:
+            stream.write(part.encode())
+            tell(file.name, advance=part.count("\n"))
 
 
 _MOST_COLUMNS = 12

@@ -16,7 +16,7 @@ from optipath.explorer.state import faults_as_json, read_path, read_state, reque
 from optipath.explorer.traced import curve_detector, curve_grid, traced, traced_as_json
 from optipath.materials.material import Material
 from optipath.materials.named_materials import extinction_with
-from optipath.sweeps.datasets import regions, table_columns, table_heads
+from optipath.sweeps.datasets import csv_parts
 from optipath.sweeps.grid import SweepGrid
 from optipath.values.units import UNITS, parse_quantity
 
@@ -134,12 +134,9 @@ def _table(state: ReadState, curve: RequestedCurve | None) -> str:
     plan = state.explored.plan
     try:
         grid = SweepGrid((), state.values) if curve is None else curve_grid(state, curve)
-        rows = [",".join(table_heads(plan, grid))]
-        for region in regions(grid.shape):
-            rows += map(",".join, zip(*table_columns(plan, grid, region), strict=True))
+        return "".join(csv_parts(plan, grid))
     except OptipathError as error:
         raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
-    return "".join(f"{row}\n" for row in rows)
 
 
 def _toml(state: ReadState) -> str:

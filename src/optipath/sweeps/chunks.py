@@ -134,7 +134,7 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     plan, varied = recipe.plan, block.varied
     results = []
     for region in regions(varied.shape, _AT_ONCE):
-        numbers = varied.given(region)
+        numbers = varied.part(region).given()
         results.append(plan.answers.in_frames(plan.answers.lights(numbers), numbers))
     lights = [tuple([light[name] for light in results]) for name in detectors_of(plan)]
     return BlockLight(block.shape, tuple(lights), None if varied is block else varied.shape)

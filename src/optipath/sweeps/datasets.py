@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 from dataclasses import fields
 from importlib.metadata import version
+from io import StringIO
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
@@ -17,7 +19,7 @@ from optipath.plan.reading import pieces
 from optipath.values.units import BASE_UNITS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
     import numpy.typing as npt
     import xarray as xr
@@ -93,43 +95,29 @@ def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ..
         yield (*cuts, *[slice(0, size) for size in shape[len(cuts) :]])
 
 
-def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
-    """Return the heading of each column: of the axes, then of the quantities of light."""
-    names = variable_names(grid, plan)
-    ends = detectors_of(plan)
+def csv_parts(plan: Plan, grid: SweepGrid) -> Iterator[str]:
+    """Yield a sweep as CSV, part by part: a line of headings, and one for each point."""
+    names, ends = variable_names(grid, plan), detectors_of(plan)
     at = [f" at {end}" for end in ends] if len(ends) > 1 else [""]
-    messages = [
-        heading(names[quantity.variable] + place, quantity.shown_unit)
-        for place in at
-        for quantity in QUANTITIES
-    ]
-    return [_quoted(name) for name in (*[heading(a.name, a.unit) for a in grid.axes], *messages)]
+    heads = [heading(axis.name, axis.unit) for axis in grid.axes]
+    heads += [heading(names[e.variable] + place, e.shown_unit) for place in at for e in QUANTITIES]
+    yield _csv([heads])
+    for region in regions(grid.shape):
+        part = grid.part(region)
+        columns = []
+        for axis in part.axes:
+            behind = len(part.shape) - 1 - [*part.sizes].index(axis.dimension)
+            columns.append(axis.shown.reshape(-1, *(1,) * behind))
+        lights = plan.run_all(**part.given())
+        columns += [each.shown_of(lights[end]) + 0.0 for end in ends for each in QUANTITIES]
+        laid_out = [np.broadcast_to(column, part.shape).ravel().tolist() for column in columns]
+        yield _csv(zip(*laid_out, strict=True))
 
 
-def table_columns(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Sequence[str]]:
-    """Yield the texts of each column for a part of a grid."""
-    shape = tuple(cut.stop - cut.start for cut in region)
-    places = dict(zip(grid.sizes, range(len(shape)), strict=True))
-    for axis in grid.axes:
-        place = places[axis.dimension]
-        texts = np.array([_text(value) for value in axis.shown[region[place]].tolist()], object)
-        along = texts.reshape(-1, *(1,) * (len(shape) - 1 - place))
-        yield np.broadcast_to(along, shape).ravel().tolist()
-    lights = plan.run_all(**grid.given(region))
-    for end in detectors_of(plan):
-        for quantity in QUANTITIES:
-            numbers = quantity.shown_of(lights[end])
-            each = np.broadcast_to(numbers + 0.0, shape)  # It may be the same along an axis.
-            yield [repr(number) for number in each.ravel().tolist()]
-
-
-def _text(value: Any) -> str:
-    return _quoted(value) if isinstance(value, str) else repr(value)
-
-
-def _quoted(text: str) -> str:
-    """Return a cell of a table, in quotation marks where it needs them."""
-    return '"' + text.replace('"', '""') + '"' if any(each in text for each in ',"\n') else text
+def _csv(rows: Iterable[Iterable[Any]]) -> str:
+    text = StringIO(newline="")
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def sweep_dataset(

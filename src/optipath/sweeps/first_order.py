@@ -120,7 +120,7 @@ def nonlinearity_of(
         left = np.where(left <= rounding, 0.0, left / step**2)[..., np.newaxis]
         result[...] = np.where(share, np.fmax(result, left), result)
 
-    inner = [_towards(each, 1.0, -1.0) for each in uncertain]
+    inner = [_one_sigma_away(each) for each in uncertain]
     alone = [moved({each.name: end}) for each, end in zip(uncertain, inner, strict=True)]
     for along in _directions(changes, correlation):
         size = np.abs(along)
@@ -171,13 +171,10 @@ def _directions(changes: Any, correlation: Any) -> list[Any]:
     return results
 
 
-def _towards(each: UncertainValue, *signs: float) -> Any:
-    """Return a value plus or minus its uncertainty, the first that it may have; else itself."""
-    result = each.value
-    for sign in reversed(signs):
-        end = each.value + sign * each.sigma
-        result = np.where(each.allows(end), end, result)
-    return result
+def _one_sigma_away(each: UncertainValue) -> Any:
+    """Return a value plus its uncertainty, or minus it where it may not have that; else itself."""
+    above, below = each.value + each.sigma, each.value - each.sigma
+    return np.where(each.allows(above), above, np.where(each.allows(below), below, each.value))
 
 
 _FIRST = 0.0437

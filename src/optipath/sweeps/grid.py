@@ -68,18 +68,17 @@ class SweepGrid:
         ]
         return replace(self, axes=tuple(axes))
 
-    def given(self, region: Sequence[slice] | None = None) -> dict[str, Any]:
-        """Return what `Plan.run` is given for the grid, or for a part of it."""
+    def given(self) -> dict[str, Any]:
+        """Return what `Plan.run` is given for the grid."""
         places = list(self.sizes)
         results = dict(self.fixed)
         used = [axis for axis in self.axes if not axis.idle]
         is_whole = len(used) == len(self.axes)
         for axis in used:
             place = places.index(axis.dimension)
-            cut = slice(None) if region is None else region[place]
             behind = len(places) - 1 - place
             ahead = 0 if is_whole else place  # Dimensions in front may have no other array.
-            results[axis.name] = axis.given[cut].reshape(*(1,) * ahead, -1, *(1,) * behind)
+            results[axis.name] = axis.given.reshape(*(1,) * ahead, -1, *(1,) * behind)
         return results
 
 

@@ -74,7 +74,7 @@ class SweptLight:
         result = np.empty(ran.shape, self.dtype)
         for region in regions(ran.shape, _AT_ONCE) if result.size else ():
             # Values of the part alone, so that nothing of the whole is looked at for its noise.
-            noise = (noise_at, self.plan.answers, self.detector, ran.given(region), ())
+            noise = (noise_at, self.plan.answers, self.detector, ran.part(region).given(), ())
             light = Light.of(tuple([each[region] for each in stokes]), Frame(), noise=noise)
             result[region] = quantity.of(light)
         ends = tuple([slice(None) if isinstance(index, slice) else 0 for index in key])
