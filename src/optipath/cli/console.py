@@ -34,9 +34,9 @@ _COLUMN = 30
 """How wide a column that needs it is on the narrowest terminal."""
 
 
-def say(text: str) -> None:
+def say(text: str, *, err: bool = False) -> None:
     """Print lines as they are, control characters by their codes."""
-    click.echo(printable(text))
+    click.echo(printable(text), err=err)
 
 
 def say_wrapped(text: str) -> None:
@@ -187,7 +187,7 @@ def reported_progress() -> Iterator[Callable[[str, float], None]]:
     def write(what: str, done: float) -> None:
         if (step := int(_STEPS * done)) > max(told):
             told.add(step)
-            click.echo(printable(f"{100 * step // _STEPS} %: {what}"), err=True)
+            say(f"{100 * step // _STEPS} %: {what}", err=True)
 
     with progress_bar(1.0) as tell:
         is_shown = PlainConsole(stderr=True).is_terminal

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from optipath.cli.arguments import RANGES, axis_argument, axis_faults, refuse_axes
-from optipath.cli.console import JSON
+from optipath.cli.console import JSON, say
 from optipath.cli.options import StrictCommand, WholeHelp, flag
 from optipath.composer.composer import CHOICES
 from optipath.composer.path_values import Values
@@ -345,5 +345,4 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
         else:
             del values[name]
         message = "all is the same along it" if several else f"--{name} is not used"
-        message = f"optipath: nothing in '{preset}' depends on the wavelength; {message}"
-        click.echo(printable(message), err=True)
+        say(f"optipath: nothing in '{preset}' depends on the wavelength; {message}", err=True)

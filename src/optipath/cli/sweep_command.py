@@ -25,7 +25,7 @@ from optipath.cli.outcome import (
 )
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError, listed, printable, shown
+from optipath.errors import ParameterError, listed, shown
 from optipath.light.printed import Numbers
 from optipath.light.quantities import PRINTED
 from optipath.sweeps.axes import grid_of
@@ -266,20 +266,17 @@ def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
 
             def tell(done: int, total: int) -> None:
                 if not counts and done:
-                    _say(f"{_counted(done, total)} in {stored} already")
+                    say(f"optipath: {_counted(done, total)} in {stored} already", err=True)
                 counts.append((done, total))
                 show(f"{done} of {total} blocks", completed=done / total)
 
             yield tell
     except KeyboardInterrupt:
         if counts and counts[-1][0]:
-            _say(f"{_counted(*counts[-1])} in {stored}; the same command goes on from there")
+            there = f"{_counted(*counts[-1])} in {stored}"
+            say(f"optipath: {there}; the same command goes on from there", err=True)
         raise
 
 
 def _counted(done: int, total: int) -> str:
     return f"{done:,} of {total:,} block{'s' * (total != 1)} {'is' if done == 1 else 'are'}"
-
-
-def _say(text: str) -> None:
-    click.echo(printable(f"optipath: {text}"), err=True)

@@ -783,17 +783,8 @@ class PathGraph(Chainable):
         # Sweeps stand above paths.
         from optipath.sweeps.uncertainty import propagate  # noqa: PLC0415
 
-        return propagate(
-            self,
-            unnamed,
-            values,
-            method=method,
-            samples=samples,
-            seed=seed,
-            correlation=correlation,
-            detector=detector,
-            composer=composer,
-        )
+        options = method, samples, seed, correlation, detector, composer
+        return propagate(self, unnamed, values, *options)
 
     def __copy__(self) -> Self:
         return self._with(self._graph.copy())

@@ -44,54 +44,51 @@ def swept_in_chunks(
 ) -> ChunkedSweep:
     """Return the light of a grid, to be computed block by block."""
     recipe = PlanRecipe.of(path, composer)
-    light = ChunkedLight(recipe, grid, chunk_sizes(chunks, grid.sizes, len(detectors_of(plan))))
-    result = sweep_dataset(
-        path, plan, grid, composer, lambda: {each.variable: light.of(each) for each in QUANTITIES}
-    )
+    sizes = chunk_sizes(chunks, grid.sizes, len(detectors_of(plan)))
+    result = sweep_dataset(path, plan, grid, composer, lambda: _arrays_of(recipe, grid, sizes))
     quantities = dict(zip(map(str, result.data_vars), QUANTITIES, strict=True))
     return ChunkedSweep(recipe, grid, quantities, result)
 
 
-class ChunkedLight:
-    """The light of a sweep, block by block: each is computed once for all that is asked of it."""
-
-    def __init__(self, recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int]) -> None:
-        self.detectors = len(detectors_of(recipe.plan))
-        self.dtype = np.dtype(recipe.plan.dtype)
-        self.places = tuple(range(len(sizes)))
-        self.token = tokenize(recipe, grid, dict(sizes))
-        places = dict(zip(sizes, self.places, strict=True))
-        arguments: list[Any] = [delayed(recipe, name=f"recipe-{self.token}", traverse=False), None]
-        for axis in grid.axes:
-            # Each block is sent its part of the axes and not the whole of them.
-            part = da.from_array(axis.given, sizes[axis.dimension])  # type: ignore[no-untyped-call]
-            arguments += [part, (places[axis.dimension],)]
-        bare = [replace(axis, shown=axis.shown[:0], given=axis.given[:0]) for axis in grid.axes]
-        self._light = da.blockwise(  # type: ignore[no-untyped-call]
-            _run,
-            self.places,
-            *arguments,
-            name=f"light-{self.token}",
-            align_arrays=False,
-            meta=np.empty((0,) * len(places), object),
-            bare=SweepGrid(tuple(bare), grid.fixed),
-        )
-
-    def of(self, quantity: LightQuantity) -> da.Array:
-        """Return a quantity of it, lazily; of several detectors, along the first axis."""
-        front = {len(self.places): self.detectors} if self.detectors > 1 else {}
-        result: da.Array = da.blockwise(  # type: ignore[no-untyped-call]
+def _arrays_of(
+    recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int]
+) -> dict[str, da.Array]:
+    """Return each quantity; the light of a block is computed once for all of them."""
+    token = tokenize(recipe, grid, dict(sizes))
+    places = {name: place for place, name in enumerate(sizes)}
+    arguments: list[Any] = [delayed(recipe, name=f"recipe-{token}", traverse=False), None]
+    for axis in grid.axes:
+        # Each block is sent its part of the axes and not the whole of them.
+        part = da.from_array(axis.given, sizes[axis.dimension])  # type: ignore[no-untyped-call]
+        arguments += [part, (places[axis.dimension],)]
+    bare = [replace(axis, shown=axis.shown[:0], given=axis.given[:0]) for axis in grid.axes]
+    along = tuple(places.values())
+    light = da.blockwise(  # type: ignore[no-untyped-call]
+        _run,
+        along,
+        *arguments,
+        name=f"light-{token}",
+        align_arrays=False,
+        meta=np.empty((0,) * len(along), object),
+        bare=SweepGrid(tuple(bare), grid.fixed),
+    )
+    detectors = len(detectors_of(recipe.plan))
+    front = {len(along): detectors} if detectors > 1 else {}
+    meta = np.empty((0,) * (len(along) + len(front)), recipe.plan.dtype)
+    return {
+        each.variable: da.blockwise(  # type: ignore[no-untyped-call]
             BlockLight.of,
-            (*front, *self.places),
-            self._light,
-            self.places,
-            quantity,
+            (*front, *along),
+            light,
+            along,
+            each,
             None,
-            name=f"{quantity.variable}-{self.token}",
+            name=f"{each.variable}-{token}",
             new_axes=front,
-            meta=np.empty((0,) * (len(self.places) + len(front)), self.dtype),
+            meta=meta,
         )
-        return result
+        for each in QUANTITIES
+    }
 
 
 def _run(recipe: PlanRecipe, *values: npt.NDArray[Any], bare: SweepGrid) -> BlockLight:

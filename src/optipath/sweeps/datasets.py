@@ -19,7 +19,7 @@ from optipath.plan.reading import pieces
 from optipath.values.units import BASE_UNITS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     import numpy.typing as npt
     import xarray as xr
@@ -52,23 +52,19 @@ def detectors_of(plan: Plan) -> tuple[str, ...]:
 
 def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
     """Return what the variable of each quantity is called."""
-    taken = [*dict.fromkeys([*grid.sizes, *plan.inputs.open])]
-    own = [quantity.variable for quantity in QUANTITIES]
-    other = CAPITALIZED if CAPITALIZED.keys() & set(taken) else {}
-    names = {name: other.get(name, name) for name in own}
-    several = len(detectors_of(plan)) > 1
-    if faults := [*_faults(taken, {*names.values(), *([DETECTOR] if several else [])})]:
+    taken = dict.fromkeys([*grid.sizes, *plan.inputs.open])
+    other = CAPITALIZED if CAPITALIZED.keys() & taken.keys() else {}
+    names = {each.variable: other.get(each.variable, each.variable) for each in QUANTITIES}
+    own = dict.fromkeys(names.values(), "variable")
+    own |= {DETECTOR: "dimension"} if len(detectors_of(plan)) > 1 else {}
+    if faults := [
+        f"'{name}' is what a sweep calls a {own[name]} of its own; give the parameter or dimension "
+        f"another name, such as '{name}_'"
+        for name in taken
+        if name in own
+    ]:
         raise ParameterError(*faults)
     return names
-
-
-def _faults(taken: Collection[str], names: Collection[str]) -> list[str]:
-    return [
-        f"'{name}' is what a sweep calls a {'dimension' if name == DETECTOR else 'variable'} of "
-        f"its own; give the parameter or dimension another name, such as '{name}_'"
-        for name in taken
-        if name in names
-    ]
 
 
 _ROWS = 1 << 16
@@ -216,13 +212,15 @@ _KEPT: WeakKeyDictionary[Answers, tuple[Any, dict[str, str | float]]] = WeakKeyD
 
 def _attributes(path: PathGraph, plan: Plan, composer: Composer) -> dict[str, str | float]:
     options = {each.name: getattr(composer, each.name) for each in fields(Composer)}
-    messages = {name: value for name, value in options.items() if name not in _UNREPORTED}
+    for name in _UNREPORTED:
+        del options[name]
+    ends = plan.program.detectors.items()
     return {
         "path": _toml(path),
         "explanation": plan.explain(),
         "optipath_version": version("optipath"),
-        **{name: value for name, value in messages.items() if value is not None},
-        "frame": "\n".join(f"{name}: {_axes(end.frame)}" for name, end in _ends(plan)),
+        **{name: value for name, value in options.items() if value is not None},
+        "frame": "\n".join(f"{name}: {_axes(end.frame)}" for name, end in ends),
         **_unread(plan),
     }
 
@@ -232,10 +230,6 @@ def _toml(path: PathGraph) -> str:
         return path.to_toml()
     except PathError as fault:
         return f"the path cannot be written here, since it has no form in TOML: {fault}"
-
-
-def _ends(plan: Plan) -> Any:
-    return plan.program.detectors.items()
 
 
 def _axes(frame: Any) -> str:
@@ -252,9 +246,10 @@ def _short(number: float) -> str:
 
 def _unread(plan: Plan) -> dict[str, str]:
     """Return a sentence of the components that detectors do not read, if there are any."""
-    several = [(name, end.components) for name, end in _ends(plan) if end.components < 4]
     messages = [
-        f"{listed(_COMPONENTS[count:])} at {name}, which reads {listed(_COMPONENTS[:count])}"
-        for name, count in several
+        f"{listed(_COMPONENTS[each.components :])} at {name}, which reads "
+        f"{listed(_COMPONENTS[: each.components])}"
+        for name, each in plan.program.detectors.items()
+        if each.components < len(_COMPONENTS)
     ]
     return {"unread": f"NaN: {'; '.join(messages)}"} if messages else {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING, Any
 
+import networkx as nx
 import numpy as np
 
 from optipath.errors import ParameterError, listed
@@ -165,12 +166,9 @@ class DrawnSamples:
 
 def _groups(correlation: Numbers, places: Sequence[int]) -> list[list[int]]:
     """Return which values are correlated, also by way of others, in the order of their places."""
-    together = correlation != 0.0
-    for _ in places:
-        together = together @ together
-    order = sorted(range(len(places)), key=places.__getitem__)
-    groups = [[other for other in order if together[one, other]] for one in order]
-    return [group for one, group in zip(order, groups, strict=True) if group[0] == one]
+    linked = nx.from_numpy_array(correlation != 0.0)
+    groups = [sorted(each, key=places.__getitem__) for each in nx.connected_components(linked)]
+    return sorted(groups, key=lambda group: places[group[0]])
 
 
 def _root_of(matrix: Numbers) -> Numbers:

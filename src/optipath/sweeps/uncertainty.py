@@ -50,7 +50,6 @@ def propagate(
     path: PathGraph,
     unnamed: tuple[object, ...],
     arguments: dict[str, Any],
-    *,
     method: str,
     samples: int | None,
     seed: int | None,
