@@ -324,13 +324,7 @@ def having(variable: ContextVar[T], value: T) -> Iterator[None]:
 
 
 def did_you_mean(word: object, known: Iterable[str]) -> str:
-    """Return the cure for a misspelt word, ready to be put behind the fault.
-
-    >>> did_you_mean("transmited", ["reflected", "transmitted"])
-    "; did you mean 'transmitted'?"
-    >>> did_you_mean("xyz", ["in", "out"])
-    '; there are: in, out'
-    """
+    """Return the cure for a misspelt word, ready to be put behind the fault."""
     names = [name for name in known if name]
     if (result := closest(word if isinstance(word, str) else shown(word), names)) is not None:
         return f"; did you mean '{result}'?"
@@ -338,22 +332,14 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
 
 
 def there_are(names: Sequence[str]) -> str:
-    """Return what there is, ready to be put behind a fault.
-
-    >>> there_are(["in", "out"]), there_are([])
-    ('; there are: in, out', '; there are none')
-    """
+    """Return what there is, ready to be put behind a fault."""
     if (more := len(names) - _MOST_LISTED) > 0:
         return f"; there are: {', '.join(names[:_MOST_LISTED])} and {more} more"
     return f"; there are: {', '.join(names)}" if names else "; there are none"
 
 
 def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
-    """Return the sentence for a word that is none of those there are; none for one that is.
-
-    >>> unknown("engine", "nunpy", ("numpy", "jax")), unknown("engine", "jax", ("numpy", "jax"))
-    (["engine 'nunpy' is unknown; did you mean 'numpy'?"], [])
-    """
+    """Return the sentence for a word that is none of those there are; none for one that is."""
     if isinstance(word, str) and word in known:
         return []
     return [f"{what} {shown(word)} is unknown{did_you_mean(word, known)}"]
@@ -391,11 +377,7 @@ def check_named(
 
 
 def listed(words: Sequence[str]) -> str:
-    """Return words as a sentence lists them.
-
-    >>> listed(["a"]), listed(["a", "b", "c"])
-    ('a', 'a, b and c')
-    """
+    """Return words as a sentence lists them."""
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last
 
@@ -526,10 +508,7 @@ _NAMES = {"yaml": "PyYAML", "jax": "JAX"}
 
 
 def need(what: str, *packages: str) -> None:
-    """Raise where packages that a feature needs are not installed; none is imported.
-
-    >>> need("paths")
-    """
+    """Raise where packages that a feature needs are not installed; none is imported."""
     if missing := [package for package in packages if find_spec(package) is None]:
         raise missing_extra(what, *missing)
 

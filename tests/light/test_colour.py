@@ -123,7 +123,7 @@ def test_wavelengths_that_leave_out_what_is_seen_are_told_at_the_line_that_asks(
     [
         ({"observer": "CIE 1931"}, "observer 'CIE 1931' is unknown; did you mean 'CIE 1931 2 deg'"),
         ({"outside": "bright"}, "outside 'bright' is unknown; there are: dark, nearest"),
-        ({"white": 1.0}, "white is 1.0, which has no spectrum; give the light of the same path"),
+        ({"white": 1.0}, "white is 1.0, which has no spectrum; give white=, the light without"),
         ({"white": light_of(np.zeros(81))}, r"white is dark \(Y = 0\)"),
     ],
 )
@@ -175,7 +175,7 @@ def test_all_that_is_wrong_with_a_colour_is_told_at_once():
     lights = light_of([0.2 * np.ones(81), 40.0 * peak(520.0, 5.0)]).reshape(2, 81)
     with pytest.raises(op.ValueFault, match=r"1 of 2 colours are out .*, by up to \d\.\d+ of its"):
         lights.to_srgb(white=light_of(np.ones(81)))
-    with pytest.raises(op.ValueFault, match="relative to what is white; write white="):
+    with pytest.raises(op.ValueFault, match="relative to what is white; give white="):
         light_of(np.ones(81)).to_srgb()
     with pytest.raises(op.ValueFault) as caught:
         light_of(np.ones(81)).to_srgb(adapt="yes", out_of_gamut="clipped")

@@ -181,7 +181,7 @@ def test_light_that_is_no_spectrum_is_refused(light, sentence):
         ({"response": [1.0, 2.0]}, r"the response has the shape \(2,\), and there are 3"),
         ({"response": [1.0, -2.0, 1.0]}, "the response is -2"),
         ({"response": [1.0, np.nan, 1.0]}, "the response is nan"),
-        ({"response": ["a", "b", "c"]}, "the response must be of real numbers"),
+        ({"response": ["a", "b", "c"]}, "the response: .a. is not a quantity"),
         ({"edges": [4e-7, 5e-7]}, "3 wavelengths have 4 edges of bins"),
         ({"edges": [3e-7, 4.1e-7, 4.2e-7, 7e-7]}, "bin 1 is from 410 nm to 420 nm, and its wave"),
         ({"edges": [[4e-7], [4e-7, 5e-7]]}, "rows of unequal lengths"),

@@ -166,7 +166,7 @@ def test_a_store_is_what_xarray_opens_and_one_of_another_measurement_is_left_alo
     [
         ({"store": "a.nc"}, "store 'a.nc' is no Zarr store; give a name that ends in .zarr, such"),
         ({"store": ".zarr"}, "such as 'hemisphere.zarr'"),
-        ({"store": 3}, "must be a text or a pathlib.Path, not 3"),
+        ({"store": 3}, "3 is no name of a file"),
         ({"scheduler": "threads"}, "scheduler= is for a measurement that is kept; give store="),
     ],
 )

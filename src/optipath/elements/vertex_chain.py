@@ -151,6 +151,8 @@ _LEAST, _MOST = SHORTEST**2, LONGEST**2
 class VerticesDomain(Domain):
     """Points from the light to the eye, in the unit of any length."""
 
+    shows_in_light = True  # Two vertices in one point have no direction.
+
     masks: bool = False
     ends: bool = False
 
@@ -167,11 +169,6 @@ class VerticesDomain(Domain):
     def described(self) -> str:
         """Say in words which values are allowed."""
         return "the points of a chain, without a unit"
-
-    @property
-    def shows_in_light(self) -> bool:
-        """Two vertices in one point have no direction, and light along none is not finite."""
-        return True
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change; whole numbers, whose differences wrap, as floats.

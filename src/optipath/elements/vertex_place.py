@@ -220,10 +220,7 @@ class EventFits(Agreement):
 
     owner: str
 
-    @property
-    def shows_in_light(self) -> bool:
-        """Light that cannot go so is not finite."""
-        return True
+    shows_in_light = True
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
         if xp is not np:
@@ -289,10 +286,7 @@ class SnellAtVertex(Agreement):
 
     owner: str
 
-    @property
-    def shows_in_light(self) -> bool:
-        """Light that no surface refracts so is not finite."""
-        return True
+    shows_in_light = True
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
         n1, n2, *points = numbers

@@ -18,7 +18,7 @@ from optipath.kernels.carriers.carrier import MatrixCarrier, StokesCarrier
 from optipath.kernels.carriers.intensities import BoundsCarrier, largest_error
 from optipath.kernels.carriers.structures import is_physical
 from optipath.kernels.trigonometry import DIGITS
-from optipath.light.underflow import UNDERFLOW
+from optipath.light.polarization_state import UNDERFLOW
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE
 from optipath.values.precision import wide
 

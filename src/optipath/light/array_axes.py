@@ -1,4 +1,4 @@
-"""Array axes: shape, index and NumPy conversion shared by light and Mueller matrices."""
+"""Array axes: shape, index and NumPy functions of light and Mueller matrices."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 import numpy as np
 
 from optipath.errors import IndexFault, LightError, ParameterError, ShapeError, shown
+from optipath.values.arrays import as_argument, locked
 from optipath.values.jax_values import is_traced, known, namespace
 
 if TYPE_CHECKING:
@@ -59,9 +60,7 @@ class ArrayAxes:
 
     def __bool__(self) -> NoReturn:
         """Refuse to be true or false: what is dark would be either."""
-        raise LightError(
-            f"{self._kind} is neither true nor false; ask its numbers, {self._written}"
-        )
+        raise LightError(f"{self._kind} is neither true nor false; ask {self._written}")
 
     def __getitem__(self, key: Any) -> Self:
         """Return a part of a batch, by an index of its axes: integers, slices, masks.
@@ -86,9 +85,8 @@ class ArrayAxes:
         except (IndexError, TypeError, ValueError) as fault:
             problem = f"a batch of shape {self.shape}: {str(fault).partition(chr(10))[0]}"
             problem = problem if self.shape else f"a single {self._kind} has no axes"
-            raise IndexFault(
-                f"index {shown(key)} does not fit, {problem}; numbers are {self._entry}"
-            ) from None
+            wrong = f"index {shown(key)} does not fit, {problem}"
+            raise IndexFault(f"{wrong}; numbers are {self._entry}") from None
 
     def reshape(self, *shape: Any, order: Any = "C", copy: bool | None = None) -> Self:
         """Return the same as a batch of another shape.
@@ -105,20 +103,14 @@ class ArrayAxes:
         Returns
         -------
         Light or Mueller
-
-        Raises
-        ------
-        ShapeError
-            If that is another number of them.
         """
         del copy
         try:
             return self._each(lambda numbers: numbers.reshape(*shape, order=order))
         except (TypeError, ValueError):
-            raise ShapeError(
-                f"{self.size} {self._several} of shape {self.shape} cannot be given the shape "
-                f"{shown(shape[0] if len(shape) == 1 else shape)}"
-            ) from None
+            wanted = shown(shape[0] if len(shape) == 1 else shape)
+            what = f"{self.size} {self._several} of shape {self.shape}"
+            raise ShapeError(f"{what} cannot be given the shape {wanted}") from None
 
     def _each(self, change: Callable[[Any], Any]) -> Self:
         """Return the same with axes changed, number by number."""
@@ -129,29 +121,19 @@ class ArrayAxes:
         numbers = getattr(self, self._attribute)
         if is_traced(numbers):
             raise ParameterError(
-                f"{self._kind} that JAX traces is no array of numbers; take "
-                f"{self._written}, inside of jit and grad as well"
+                f"{self._kind} that JAX traces is no array of numbers; take {self._written}"
             )
         return np.array(known(numbers), dtype=dtype, copy=copy)
 
 
 def each_number(numbers: Any, change: Callable[[Any], Any]) -> Any:
-    """Return vectors (..., n) whose axes but the last are changed, number by number.
-
-    >>> each_number(np.eye(3), lambda numbers: numbers[1])
-    array([0., 1., 0.])
-    """
+    """Return vectors (..., n) whose axes but the last are changed, number by number."""
     parts = [change(numbers[..., place]) for place in range(numbers.shape[-1])]
     return namespace(parts[0]).stack(parts, axis=-1)
 
 
 def why_refused(factor: Any) -> str:
-    """Say why something is no factor of a product, and what to write in its place.
-
-    >>> print(why_refused([1, 0, 0, 0]))  # doctest: +NORMALIZE_WHITESPACE
-    [1, 0, 0, 0] has no frames; write element @ light, optipath.Mueller(matrix) @ light,
-    and optipath.Light(numbers) for light
-    """
+    """Say why something is no factor of a product, and what to write in its place."""
     if isinstance(factor, type):
         return f"{factor.__name__} is a class; write {factor.__name__}(...)"
     if hasattr(factor, "mueller"):
@@ -165,4 +147,89 @@ def why_refused(factor: Any) -> str:
     return (
         f"{shown(factor)} has no frames; write element @ light, optipath.Mueller(matrix) @ light, "
         f"and optipath.Light(numbers) for light"
+    )
+
+
+_CURE = "light adds up, light + light, and is taken times numbers >= 0, 0.5 * light, light / 2"
+
+
+def factor_of_light(factor: Any, *, dark: bool) -> Any:
+    """Return an array of finite numbers above 0, or of 0 where that makes light dark."""
+    if hasattr(factor, "mueller") or isinstance(factor, ArrayAxes):
+        raise LightError(
+            f"{shown(factor)} is what light meets; write element @ light or matrix @ light"
+        )
+    array = factor
+    if not is_traced(factor):
+        array = as_argument("a factor of light", known(factor), LightError)
+    if array.dtype.kind not in "biuf":
+        refuse(f"{shown(factor)} is no real number")
+    allowed = (array >= 0.0 if dark else array > 0.0) & (array < np.inf)
+    if is_traced(array):
+        # A product, since a choice would have slopes of 0.
+        array = array * namespace(array).where(allowed, 1.0, np.nan)
+    elif not np.all(allowed):
+        bad = array[~allowed].ravel()[0]
+        refuse(f"light has no {bad!s}-fold" if dark else f"{bad!s} divides none")
+    return array if array.dtype.kind == "f" else array.astype(np.float64)
+
+
+def refuse(problem: str) -> NoReturn:
+    """Raise what is wrong, with what there is instead."""
+    raise LightError(f"{problem}; {_CURE}; for other sums take light.stokes")
+
+
+OPERATORS = {
+    np.add: "add",
+    np.subtract: "sub",
+    np.multiply: "mul",
+    np.true_divide: "truediv",
+    np.matmul: "matmul",
+}
+
+
+_COMPARES = "allclose array_equal array_equiv isclose may_share_memory shares_memory"
+_JOINS = "atleast_1d atleast_2d atleast_3d concatenate stack vstack copy copyto"
+_WRITES = "array2string array_repr array_str save savetxt savez"
+TAKES_NUMBERS = frozenset(f"{_COMPARES} {_JOINS} {_WRITES}".split())
+"""The functions of NumPy that mix no components: they take the numbers of light."""
+
+
+def numbers_within(arguments: Any) -> Any:
+    """Return arguments with the numbers of light in place of it."""
+    if isinstance(arguments, (list, tuple)):
+        return [numbers_within(each) for each in arguments]
+    if isinstance(arguments, dict):
+        return {name: numbers_within(each) for name, each in arguments.items()}
+    return np.asarray(arguments) if isinstance(arguments, ArrayAxes) else arguments
+
+
+_COPIED = 1 << 16
+"""Of how many lights components are copied when somebody asks for them."""
+
+
+def handed_out(component: Any) -> Any:
+    """Return a component of light as it is given to whoever asks for it."""
+    if isinstance(component, float):
+        return np.array(component)
+    stored = is_traced(component) or component.size > _COPIED
+    return locked(component) if stored else np.array(component)
+
+
+def stacked_components(components: tuple[Any, Any, Any, Any]) -> Array:
+    """Return four components, floats or arrays of one shape, as one array (..., 4)."""
+    arrays = [component for component in components if isinstance(component, np.ndarray)]
+    if not arrays:
+        return np.array(components)
+    stokes: Array = np.empty((4, *arrays[0].shape), arrays[0].dtype)
+    for row, component in enumerate(components):
+        stokes[row] = component
+    return np.moveaxis(stokes, 0, -1)
+
+
+def refuse_call(call: str) -> NoReturn:
+    """Raise that a function of NumPy takes no light."""
+    raise LightError(
+        f"numpy.{call} takes numbers, and light has a frame besides; give it light.stokes, or "
+        f"light.S0; the mean of lights is sum(lights) / len(lights)"
     )

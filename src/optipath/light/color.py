@@ -30,6 +30,8 @@ FROM_XYZ = np.array(
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 """What red, green and blue add to Y; equation 2."""
 
+_WHITE = "give white=, the light without the sample, or op.Spectrum.illuminant('D65')"
+
 OUT_OF_GAMUT = ("refuse", "clip", "scale", "keep")
 
 _STEP = 0.5 / 255
@@ -115,10 +117,7 @@ def srgb_of(
     """Return the colour of light; see `Light.to_srgb`."""
     faults = unknown("out_of_gamut", out_of_gamut, OUT_OF_GAMUT)
     if white is None:
-        faults.append(
-            "a colour is relative to what is white; write white=..., the light of the same path "
-            "without the sample, or op.Spectrum.illuminant('D65')"
-        )
+        faults.append(f"a colour is relative to what is white; {_WHITE}")
     if not isinstance(adapt, (bool, np.bool_)):
         faults.append(f"adapt is True or False, not {shown(adapt)}")
     if faults:
@@ -131,21 +130,14 @@ def srgb_of(
     result = Srgb(linear, linear)
     if out_of_gamut == "keep":
         return result
-    if out_of_gamut == "scale":
-        linear_in_gamut = _scaled(linear)
-    else:
-        linear_in_gamut = namespace(linear).clip(linear, 0.0, 1.0)
     if out_of_gamut == "refuse":
         _refuse(result)
-    return Srgb(linear, linear_in_gamut)
+    scales = out_of_gamut == "scale"
+    return Srgb(linear, _scaled(linear) if scales else namespace(linear).clip(linear, 0.0, 1.0))
 
 
 def encoded(linear: Any) -> Any:
-    """Return components with the transfer function of sRGB; negative ones as positive ones.
-
-    >>> encoded(np.array([0.0, 0.0031308, 0.5, 1.0])).round(4)
-    array([0.    , 0.0404, 0.7354, 1.    ])
-    """
+    """Return components with the transfer function of sRGB; negative ones as positive ones."""
     xp = namespace(linear)
     size = xp.abs(linear)
     bright = size > 0.0031308
@@ -164,25 +156,23 @@ def _scaled(linear: Any) -> Any:
     return mixed / xp.maximum(mixed.max(axis=-1, keepdims=True), 1.0)
 
 
+_GAMUT_CURE = "write out_of_gamut='clip', 'scale' or 'keep'"
+
+
 def _refuse(colour: Srgb) -> None:
     """Refuse colours that a display cannot show, saying how many and how far."""
     if is_traced(colour.linear):
         raise ValueFault(
-            "whether colours that JAX traces are in gamut is not known; write "
-            "out_of_gamut='clip', 'scale' or 'keep'"
+            f"whether colours that JAX traces are in gamut is not known; {_GAMUT_CURE}"
         )
     outside = np.atleast_1d(colour.outside)
     if not outside.any():
         return
-    farthest = float(np.max(colour.beyond))
     brightest = float(np.max(colour.linear))
-    which = (
-        "the colour is" if outside.size == 1 else f"{outside.sum()} of {outside.size} colours are"
-    )
     too = f" (a component up to {brightest:.3g} times that of white)" * (brightest > 1.0)
     raise ValueFault(
-        f"{which} out of the gamut of sRGB, by up to {farthest:.3g} of its range{too}; "
-        f"write out_of_gamut='clip', 'scale' or 'keep'"
+        f"{outside.sum()} of {outside.size} colours are out of the gamut of sRGB, by up to "
+        f"{float(np.max(colour.beyond)):.3g} of its range{too}; {_GAMUT_CURE}"
     )
 
 
@@ -199,12 +189,10 @@ def tristimulus(light: Light, white: Any, observer: str, outside: str) -> Array:
     total = _sums(light, standard, outside)
     warn_of(light, standard, outside)
     if white is None:
-        absolute: Array = LUMENS_PER_WATT * total
-        return absolute
+        return LUMENS_PER_WATT * total  # type: ignore[no-any-return]
     of_white = white_sums(light, white, standard, outside)
     check_broadcast({"light": total.shape[:-1], "white": of_white.shape[:-1]})
-    relative: Array = total / of_white[..., 1:2]
-    return relative
+    return total / of_white[..., 1:2]  # type: ignore[no-any-return]
 
 
 def white_sums(light: Light, white: Any, observer: Observer, outside: str) -> Any:
@@ -216,10 +204,7 @@ def white_sums(light: Light, white: Any, observer: Observer, outside: str) -> An
         values = np.asarray(white.at(grid), np.float64)[:, np.newaxis]
         total = weighted_sum(values, _weights(grid, observer, outside), 0)
     else:
-        raise ValueFault(
-            f"white is {shown(white)}, which has no spectrum; give the light of the same path "
-            f"without the sample, or a Spectrum such as op.Spectrum.illuminant('D65')"
-        )
+        raise ValueFault(f"white is {shown(white)}, which has no spectrum; {_WHITE}")
     if not is_traced(total) and not np.all(total[..., 1] > 0.0):
         raise ValueFault("white is dark (Y = 0), and nothing is relative to that")
     return total
@@ -247,29 +232,26 @@ def warn_of(light: Light, observer: Observer, outside: str) -> None:
     grid = np.sort(spectral_axis(light)[0]) * NANOMETRES
     first, last = grid[[0, -1]]
     if last < _VISIBLE[0] or first > _VISIBLE[1]:
-        raise LightError(
-            f"light of {first:.6g} nm .. {last:.6g} nm is not seen; colour needs wavelengths "
-            f"within 380 nm .. 780 nm"
-        )
+        light_of = f"light of {first:.6g} nm .. {last:.6g} nm"
+        raise LightError(f"{light_of} is not seen; give wavelengths within 380 nm .. 780 nm")
     ends_within = first > _VISIBLE[0] + _ROUNDING or last < _VISIBLE[1] - _ROUNDING
     if ends_within and outside == "dark":
-        warnings.warn(
+        _warn(
             f"the light is known from {first:.6g} nm to {last:.6g} nm, and taken for dark "
             f"beyond, where white light has up to {100 * observer.left_out(grid):.3g} % of its X, "
-            f"Y or Z; compute it from 380 nm to 780 nm, or write outside='nearest'",
-            ColourWarning,
-            stacklevel=calls_up(),
+            f"Y or Z; compute it from 380 nm to 780 nm, or write outside='nearest'"
         )
     inside = grid[(grid >= _VISIBLE[0]) & (grid <= _VISIBLE[1])]
     widest = np.max(np.diff(inside if len(inside) > 1 else grid))
     if widest > _COARSE + _ROUNDING:
-        warnings.warn(
+        _warn(
             f"wavelengths are {widest:.6g} nm apart, and the light is linear between them: what "
-            f"is narrower in its spectrum is not seen, and colours may be off by some per cent; "
-            f"steps of 5 nm cost little",
-            ColourWarning,
-            stacklevel=calls_up(),
+            f"is narrower is not seen, and colours may be off by some per cent; take 5 nm"
         )
+
+
+def _warn(sentence: str) -> None:
+    warnings.warn(sentence, ColourWarning, stacklevel=calls_up())
 
 
 BRADFORD = np.array(
@@ -282,22 +264,14 @@ DISPLAY_WHITE = np.array([0.3127, 0.3290, 0.3583]) / 0.3290
 
 
 def adapted(xyz: Any, white: Any) -> Any:
-    """Return X, Y, Z (..., 3) as they are under the white of a display.
-
-    >>> adapted(np.array([0.5, 0.5, 0.5]), np.ones(3)).round(4)
-    array([0.4752, 0.5   , 0.5445])
-    """
+    """Return X, Y, Z (..., 3) as they are under the white of a display."""
     before = times(BRADFORD, white / white[..., 1:2])
     gain = times(BRADFORD, DISPLAY_WHITE) / before
     return times(np.linalg.inv(BRADFORD), gain * times(BRADFORD, xyz))
 
 
 def times(matrix: Any, vectors: Any) -> Any:
-    """Return products (..., 3) in an order that does not depend on how many there are.
-
-    >>> times(np.eye(3), np.array([1.0, 2.0, 3.0]))
-    array([1., 2., 3.])
-    """
+    """Return products (..., 3) in an order that does not depend on how many there are."""
     xp = namespace(vectors)
     parts = [vectors[..., place, np.newaxis] * matrix[:, place] for place in range(3)]
     return xp.asarray(parts[0] + parts[1] + parts[2])

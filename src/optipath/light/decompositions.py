@@ -27,8 +27,8 @@ import numpy as np
 from optipath.errors import ValueFault, shown
 from optipath.kernels.carriers.structures import FROM_MUELLER, TO_MUELLER
 from optipath.light.polarization_state import norm
-from optipath.values.arrays import array_of
 from optipath.values.jax_values import check_known, known
+from optipath.values.precision import real_number, rounding_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -92,7 +92,8 @@ def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
     depolarizing = np.where(one_state, degree[..., np.newaxis] * _UNIT, depolarizing)
 
     none = np.zeros_like(d)
-    diattenuator = _bordered(D * d, D * d, _diattenuation(root, d))
+    a = root[..., np.newaxis]
+    diattenuator = _bordered(D * d, D * d, a * _UNIT + (1.0 - a) * outer(d, d))
     depolarizer = _bordered(none, np.where(ideal | pure, 0.0, p), depolarizing)
     retarder = _bordered(none, none, turn)
     parts = depolarizer, retarder, m00 * diattenuator
@@ -141,11 +142,6 @@ def _depolarizer_and_turn(m: Array, rounding: Array) -> tuple[Array, Array]:
     return depolarizing, np.where(none, _UNIT, turn)
 
 
-def _diattenuation(root: Array, d: Array) -> Array:
-    a = root[..., np.newaxis]
-    return np.asarray(a * _UNIT + (1.0 - a) * outer(d, d))
-
-
 def _bordered(row: Array, column: Array, lower: Array) -> Array:
     bordered = np.empty((*lower.shape[:-2], 4, 4))
     bordered[..., 0, 0] = 1.0
@@ -158,11 +154,6 @@ def jones_parts(unit: Array, tolerance: Array) -> tuple[Array, Array, Array]:
 
     Pure: one eigenvalue of the coherency. Shapes: returns pure (..., 1), root (..., 1), rotation
     (..., 3, 3).
-
-    >>> half_wave = np.diag([1.0, 1.0, -1.0, -1.0])
-    >>> pure, root, rotation = jones_parts(half_wave, np.array([1e-14]))
-    >>> print(pure, root, rotation.diagonal())
-    [ True] [1.] [ 1. -1. -1.]
     """
     coherency = gathered(unit)
     # Each column is (c_0, c_1, c_2, c_3) times the conjugate of one of them.
@@ -185,11 +176,7 @@ _NOTHING = 2.0**-960
 
 
 def least_turn(a: Array, b: Array) -> Array:
-    """Return the rotations (..., 3, 3) by the least angle that turn unit vectors a into b.
-
-    >>> least_turn(np.array([1.0, 0.0, 0.0]), np.array([-1.0, 0.0, 0.0])).diagonal()
-    array([-1., -1.,  1.])
-    """
+    """Return the rotations (..., 3, 3) by the least angle that turn unit vectors a into b."""
     normal = np.cross(a, b)
     sine = norm(normal)[..., np.newaxis]
     least = _UNIT[np.argmin(np.abs(a), axis=-1)]
@@ -205,11 +192,7 @@ def least_turn(a: Array, b: Array) -> Array:
 
 
 def rotation(w: Array, v: Array) -> Array:
-    """Return the rotations (..., 3, 3) of S1, S2, S3 by the unitary w s_0 + i (v_1 s_1 + ...).
-
-    >>> rotation(np.array(0.0), np.array([3.0, 0.0, 0.0])).diagonal()
-    array([ 1., -1., -1.])
-    """
+    """Return the rotations (..., 3, 3) of S1, S2, S3 by the unitary w s_0 + i (v_1 s_1 + ...)."""
     size = np.sqrt(w**2 + np.sum(v**2, axis=-1))[..., np.newaxis]
     w, v = (w[..., np.newaxis] / size)[..., np.newaxis], v / size
     across = 1.0 - 2.0 * np.sum(v**2, axis=-1)[..., np.newaxis, np.newaxis]
@@ -218,22 +201,14 @@ def rotation(w: Array, v: Array) -> Array:
 
 
 def size_and_direction(vector: Array) -> tuple[Array, Array]:
-    """Return lengths, shape (..., 1), and unit vectors; 0 and 0 for what has too few digits.
-
-    >>> size_and_direction(np.array([0.0, 3.0, 4.0]))
-    (array([5.]), array([0. , 0.6, 0.8]))
-    """
+    """Return lengths, shape (..., 1), and unit vectors; 0 and 0 for what has too few digits."""
     size = norm(vector)[..., np.newaxis]
     none = size < _NOTHING
     return np.where(none, 0.0, size), np.where(none, 0.0, vector / np.where(none, 1.0, size))
 
 
 def outer(a: Array, b: Array) -> Array:
-    """Return the products (..., 3, 3) of each component with each.
-
-    >>> outer(np.array([1.0, 2.0]), np.array([3.0, 4.0])).tolist()
-    [[3.0, 4.0], [6.0, 8.0]]
-    """
+    """Return the products (..., 3, 3) of each component with each."""
     return np.asarray(a[..., :, np.newaxis] * b[..., np.newaxis, :])
 
 
@@ -246,14 +221,13 @@ def turn_of(retarder: Any) -> tuple[Array, Array]:
     xx, yy, zz = r[..., 0, 0], r[..., 1, 1], r[..., 2, 2]
     x, y, z = (r[..., i, j] - r[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0)))
     xy, xz, yz = (r[..., i, j] + r[..., j, i] for i, j in ((0, 1), (0, 2), (1, 2)))
-    columns = np.stack(
+    columns = stacked(
         [
-            np.stack([1 + xx + yy + zz, x, y, z], axis=-1),
-            np.stack([x, 1 + xx - yy - zz, xy, xz], axis=-1),
-            np.stack([y, xy, 1 - xx + yy - zz, yz], axis=-1),
-            np.stack([z, xz, yz, 1 - xx - yy + zz], axis=-1),
-        ],
-        axis=-2,
+            [1 + xx + yy + zz, x, y, z],
+            [x, 1 + xx - yy - zz, xy, xz],
+            [y, xy, 1 - xx + yy - zz, yz],
+            [z, xz, yz, 1 - xx - yy + zz],
+        ]
     )
     largest = np.argmax(np.diagonal(columns, axis1=-2, axis2=-1), axis=-1)
     column = np.take_along_axis(columns, largest[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
@@ -264,25 +238,11 @@ def turn_of(retarder: Any) -> tuple[Array, Array]:
 
 
 def finite_numbers(matrix: Any) -> tuple[Array, Array]:
-    """Return matrices as doubles, 0 where an entry is not finite, and which are (..., 1, 1).
-
-    >>> finite_numbers(np.diag([np.nan, 1.0, 1.0, 1.0]))[0].any()
-    np.False_
-    """
+    """Return matrices as doubles, 0 where an entry is not finite, and which are (..., 1, 1)."""
     check_known("what a Mueller matrix is made of (by its coherency, or Lu and Chipman)", matrix)
     numbers = np.asarray(matrix, np.float64)
     finite = np.isfinite(numbers).all(axis=(-1, -2), keepdims=True)
     return np.where(finite, numbers, 0.0), finite
-
-
-def rounding_of(matrix: Any) -> float:
-    """Return the spacing of a matrix's numbers at 1, or that of double precision if it is less.
-
-    >>> rounding_of(np.eye(4, dtype=np.float32)) == 2.0**-23
-    True
-    """
-    dtype = matrix.dtype if matrix.dtype.kind == "f" else np.dtype(np.float64)
-    return max(float(np.finfo(dtype).eps), 2.0**-52)
 
 
 # Of double precision.
@@ -290,11 +250,7 @@ _TOLERANCE = 1e-9
 
 
 def coherency(matrix: Array) -> Array:
-    """Return the coherency matrices, shape (..., 4, 4), complex; NaN all over where an entry is.
-
-    >>> coherency(np.diag([1.0, 1.0, -1.0, -1.0])).real.diagonal()
-    array([0., 1., 0., 0.])
-    """
+    """Return the coherency matrices, shape (..., 4, 4), complex; NaN all over where an entry is."""
     numbers, finite = finite_numbers(matrix)
     return np.where(finite, gathered(numbers), complex(np.nan, np.nan))
 
@@ -307,20 +263,12 @@ def eigenvalues(matrix: Array) -> Array:
 
 
 def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
-    """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not.
-
-    >>> print(is_physical(np.eye(4), 0.0))
-    True
-    """
+    """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not."""
     return np.asarray(lack(matrix) <= _tolerance(tolerance, matrix))
 
 
 def lack(matrix: Array) -> Array:
-    """Return by which share of the largest eigenvalue the least one is below 0; NaN or inf.
-
-    >>> print(lack(np.eye(4)), lack(np.diag([1.0, 1.0, 1.0, -1.0])))
-    0.0 1.0
-    """
+    """Return by which share of the largest eigenvalue the least one is below 0; NaN or inf."""
     values = eigenvalues(matrix)
     largest, below = values[..., 0], np.maximum(-values[..., 3], 0.0)
     share = below / np.where(largest > 0.0, largest, 1.0)
@@ -338,11 +286,7 @@ def tolerance_of(rounding: float) -> float:
 
 
 def nearest_physical(matrix: Array) -> Array:
-    """Return the matrices without what has negative eigenvalues.
-
-    >>> nearest_physical(np.diag([1.0, 1.0, 1.0, -1.0])).diagonal().round(12)
-    array([ 1.5,  0.5,  0.5, -0.5])
-    """
+    """Return the matrices without what has negative eigenvalues."""
     numbers, finite = finite_numbers(matrix)
     values, vectors = np.linalg.eigh(gathered(numbers))
     stored = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
@@ -356,13 +300,12 @@ def _tolerance(argument: Any, matrix: Array) -> float:
     if argument is None:
         return tolerance_for(matrix)
     check_known("the tolerance of is_physical", argument)
-    number = array_of("the tolerance of is_physical", argument)
-    if number.shape == () and number.dtype.kind in "iuf" and 0.0 <= number < np.inf:
-        return float(number)
-    raise ValueFault(
-        f"the tolerance of is_physical must be a finite number >= 0, not {shown(argument)}; "
-        f"leave it out to allow for rounding"
-    )
+    number = real_number(argument)
+    if number is None or number < 0.0:
+        raise ValueFault(
+            f"the tolerance of is_physical is {shown(argument)}; give a finite number >= 0, or none"
+        )
+    return number
 
 
 def gathered(parts: Array) -> Array:

@@ -14,10 +14,12 @@ from optipath.kernels.primitives import NUMPY
 from optipath.kernels.vectors import Vector, cross, dot
 from optipath.materials.quantities import ANGLE
 from optipath.values.angles import warn_of_degrees
-from optipath.values.arrays import Unchanging, array_of, as_argument, check_broadcast, read_only
-from optipath.values.precision import Array, as_doubles, rounding_of
+from optipath.values.arrays import Unchanging, as_argument, check_broadcast, locked
+from optipath.values.precision import Array, as_doubles, doubles, rounding_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
 
@@ -71,14 +73,14 @@ class Frame(Unchanging):
     ) -> None:
         if not isinstance(rounding, Real) or not 0.0 <= rounding <= _COARSEST:
             raise FrameError(
-                f"the rounding of a frame must be a number from 0 to {_COARSEST}, not "
-                f"{shown(rounding)}; leave it out for axes of doubles"
+                f"the rounding of a frame is {shown(rounding)}; give one within 0 .. {_COARSEST}"
             )
-        argument = zip("xyz", (x, y, z), strict=True)
-        axes = [vectors(f"axis {name} of a frame", axis) for name, axis in argument]
-        self._set(axes, max(float(rounding), rounding_in(x, y, z)))
+        given = zip("xyz", (x, y, z), strict=True)
+        read = [vectors(f"axis {name} of a frame", axis) for name, axis in given]
+        axes, roundings = zip(*read, strict=True)
+        self._set(axes, max(float(rounding), *roundings))
 
-    def _set(self, axes: list[npt.NDArray[np.float64]], rounding: float) -> None:
+    def _set(self, axes: Sequence[npt.NDArray[np.float64]], rounding: float) -> None:
         """Check axes and keep them; those that are off by their rounding are made orthogonal."""
         try:
             check_broadcast({n: axis.shape[:-1] for n, axis in zip("xyz", axes, strict=True)})
@@ -91,9 +93,7 @@ class Frame(Unchanging):
             z = _unit("z", z)
             x = _across(z, x)
             y = np.cross(z, x)
-        for name, axis in zip("xyz", (x, y, z), strict=True):
-            object.__setattr__(self, name, read_only(axis))
-        object.__setattr__(self, "rounding", rounding)
+        _keep(self, [np.array(axis) for axis in (x, y, z)], rounding)
 
     @classmethod
     def trusted(cls, x: Array, y: Array, z: Array, rounding: float = 0.0) -> Frame:
@@ -111,12 +111,7 @@ class Frame(Unchanging):
         Frame
             Of these very arrays.
         """
-        frame = cls.__new__(cls)
-        for name, axis in zip("xyz", (x, y, z), strict=True):
-            axis.flags.writeable = False
-            object.__setattr__(frame, name, axis)
-        object.__setattr__(frame, "rounding", rounding)
-        return frame
+        return _keep(cls.__new__(cls), [x, y, z], rounding)
 
     @classmethod
     def from_direction(cls, z: npt.ArrayLike, x: npt.ArrayLike) -> Frame:
@@ -143,11 +138,12 @@ class Frame(Unchanging):
         >>> Frame.from_direction(z=(0, 0, 2), x=(3, 0, 5)).x
         array([1., 0., 0.])
         """
-        along = _unit("z", vectors("axis z of a frame", z))
-        towards = _unit("x", vectors("axis x of a frame", x))
+        along, rounding = vectors("axis z of a frame", z)
+        towards, of_x = vectors("axis x of a frame", x)
+        along, towards = _unit("z", along), _unit("x", towards)
         check_broadcast({"z": along.shape[:-1], "x": towards.shape[:-1]})
         across = _across(along, towards)
-        return cls(across, np.cross(along, across), along, rounding_in(z, x))
+        return cls(across, np.cross(along, across), along, max(rounding, of_x))
 
     def turned(self, angle: npt.ArrayLike) -> Frame:
         """Return this frame turned about its z by an angle in radians (right-hand rule).
@@ -159,7 +155,7 @@ class Frame(Unchanging):
         """
         what = "the angle of a turn"
         warn_of_degrees(what, angle)
-        return self.turned_by(floats(what, ANGLE.read(what, angle)))
+        return self.turned_by(floats(what, ANGLE.read(what, angle))[0])
 
     def turned_by(self, a: npt.NDArray[Any]) -> Frame:
         """Return this frame turned by angles that have been read."""
@@ -182,14 +178,13 @@ class Frame(Unchanging):
         >>> Frame().rotated([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).x
         array([0., 1., 0.])
         """
-        argument = as_argument("a rotation", rotation, FrameError)
-        matrix = floats("a rotation", argument)
+        matrix, rounding = floats("a rotation", rotation)
         if matrix.shape[-2:] != (3, 3):
             raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
         check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
         axes = [np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z)]
         frame = Frame.__new__(Frame)
-        frame._set(axes, max(self.rounding, rounding_of(argument)))  # noqa: SLF001 - its own
+        frame._set(axes, max(self.rounding, rounding))  # noqa: SLF001 - its own
         return frame
 
     def reversed(self) -> Frame:
@@ -257,6 +252,13 @@ class Frame(Unchanging):
         return f"Frame(x={_text(self.x)}, y={_text(self.y)}, z={_text(self.z)})"
 
 
+def _keep(frame: Frame, axes: list[Array], rounding: float) -> Frame:
+    for name, axis in zip("xyz", axes, strict=True):
+        object.__setattr__(frame, name, locked(axis))
+    object.__setattr__(frame, "rounding", rounding)
+    return frame
+
+
 def _other_direction(first: Frame, second: Frame, apart: Array) -> str:
     """Say of two frames that they cannot be aligned, where their directions differ most."""
     where = np.unravel_index(np.argmax(apart), apart.shape)
@@ -276,8 +278,8 @@ def _check(axes: npt.NDArray[np.float64], tolerance: float) -> float:
     off = np.abs(axes @ np.swapaxes(axes, -1, -2) - np.eye(3)).max(axis=(-1, -2), initial=0.0)
     if np.any(~(off <= tolerance)):
         raise FrameError(
-            f"the axes of a frame must be orthogonal unit vectors; these are off by "
-            f"{np.max(off):.2g}: use Frame.from_direction(z, x) to make them so"
+            f"the axes of a frame must be orthogonal unit vectors, and are off by "
+            f"{np.max(off):.2g}; use Frame.from_direction(z, x)"
         )
     if np.any(np.linalg.det(axes) < 0.0):
         raise FrameError("the axes of a frame must be right-handed, y = z cross x; turn y round")
@@ -307,40 +309,23 @@ def _text(vector: npt.NDArray[np.float64]) -> str:
     return "(" + ", ".join(f"{float(component) + 0.0:.6g}" for component in vector) + ")"
 
 
-def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return vectors (..., 3) of finite components.
-
-    >>> vectors("a normal", [0, 0, 1])
-    array([0., 0., 1.])
-    """
-    array = floats(what, value)
+def vectors(what: str, value: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], float]:
+    """Return vectors (..., 3) of finite components, and their rounding, as `floats` does."""
+    array, rounding = floats(what, value)
     if array.ndim == 0 or array.shape[-1] != 3:
         raise FrameError(f"{what} must have shape (..., 3), not {array.shape}")
-    return array
+    return array, rounding
 
 
-def rounding_in(*arguments: npt.ArrayLike) -> float:
-    """Return the rounding of vectors of which any has less precision than double; else 0.
-
-    >>> rounding_in([0, 0, 1], np.ones(3, np.float32)) == 2.0**-23
-    True
-    """
-    return max(rounding_of(as_argument("a vector", value, FrameError)) for value in arguments)
-
-
-def floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return finite numbers as doubles.
-
-    >>> floats("a rotation", [[0, 1], [1, 0]]).dtype
-    dtype('float64')
-    """
-    array = array_of(what, value, FrameError)
-    if array.dtype.kind not in "iufb":
+def floats(what: str, value: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], float]:
+    """Return finite numbers as doubles, and the rounding of what has less precision; else 0."""
+    argument = as_argument(what, value, FrameError)
+    if argument.dtype.kind not in "iufb":
         raise FrameError(f"{what} must be numbers, not {shown(value)}")
-    array = as_doubles(array)
+    array = as_doubles(doubles(argument))
     if not np.all(np.isfinite(array)):
         raise FrameError(f"{what} must be finite; check for NaN and infinity")
-    return array
+    return array, rounding_of(argument)
 
 
 # A sine below this is the rounding of the directions, and tells no plane.
@@ -404,16 +389,14 @@ def plane_of_incidence(
     >>> float(meets.incidence) == np.pi / 4, meets.arriving.x, meets.reflected.z.round(3)
     (True, array([0., 1., 0.]), array([0.707, 0.   , 0.707]))
     """
-    k, n = (
-        _vector_argument("the direction of light", direction),
-        _vector_argument("a normal", normal),
-    )
-    rounding = rounding_in(direction, normal)
+    k, rounding = _vector_argument("the direction of light", direction)
+    n, of_normal = _vector_argument("a normal", normal)
+    rounding = max(rounding, of_normal)
     check_broadcast({"direction": k.shape[:-1], "normal": n.shape[:-1]})
     k, n = np.broadcast_arrays(k, n)
-    along = _dot(k, n)
+    along = np.asarray(dot(_doubled(k), _doubled(n)).high)
     n = np.where((along > 0.0)[..., np.newaxis], -n, n)
-    across = _cross(n, k)
+    across = np.stack([part.high for part in cross(_doubled(n), _doubled(k))], axis=-1)
     lengths = _length(k) * _length(n)
     sin, cos = _length(across) / lengths, np.abs(along) / lengths
     parallel = sin < _PARALLEL_AXES
@@ -439,8 +422,7 @@ def _axis(
         return np.asarray(x)
     if keep is None:
         raise FrameError(
-            "light that arrives along the normal has no plane of incidence of its own; give "
-            "keep=, the frame whose x it keeps"
+            "light along the normal has no plane of incidence; give keep=, whose x it keeps"
         )
     check_broadcast({"direction": k.shape[:-1], "keep": keep.z.shape[:-1]})
     # Only the frame of this very light says what is kept; the others keep nothing.
@@ -448,14 +430,6 @@ def _axis(
     stored = Frame.from_direction(z, keep.x)
     keep.turn_to(Frame(stored.x, stored.y, stored.z, rounding))
     return np.where(parallel[..., np.newaxis], stored.x, x)
-
-
-def _cross(a: Any, b: Any) -> npt.NDArray[np.float64]:
-    return np.stack([part.high for part in cross(_doubled(a), _doubled(b))], axis=-1)
-
-
-def _dot(a: Any, b: Any) -> npt.NDArray[np.float64]:
-    return np.asarray(dot(_doubled(a), _doubled(b)).high)
 
 
 def _doubled(vector: Any) -> Vector:
@@ -467,9 +441,10 @@ def _length(vector: Any) -> npt.NDArray[np.float64]:
     return np.asarray(np.linalg.norm(vector, axis=-1))
 
 
-def _vector_argument(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return vectors over a power of two: exact, and their squares do not overflow."""
-    vector = vectors(what, value)
+def _vector_argument(what: str, value: npt.ArrayLike) -> tuple[npt.NDArray[np.float64], float]:
+    """Return `vectors` over a power of two: exact, and their squares do not overflow."""
+    vector, rounding = vectors(what, value)
     if not np.all(np.any(vector, axis=-1)):
         raise FrameError(f"{what} has no length; give a vector with a direction of its own")
-    return np.ldexp(vector, -np.frexp(np.max(np.abs(vector), axis=-1, keepdims=True))[1])
+    largest = np.max(np.abs(vector), axis=-1, keepdims=True)
+    return np.ldexp(vector, -np.frexp(largest)[1]), rounding

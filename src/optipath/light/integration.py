@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import LightError, ShapeError, ValueFault, listed, shown
+from optipath.errors import LightError, ShapeError, ValueFault, listed
 from optipath.light.on_demand import rounding
 from optipath.materials.illuminants import NANOMETRES, grid_fault, grid_widths
 from optipath.materials.spectrum import check_response
-from optipath.values.arrays import as_argument
+from optipath.values.domains import Domain
 from optipath.values.jax_values import check_known, is_traced, known, namespace
 from optipath.values.precision import coarser
 from optipath.values.wavelength import Wavelength
@@ -20,19 +20,20 @@ if TYPE_CHECKING:
     from optipath.values.precision import Array
 
 
+_RESPONSE = Domain("response", minimum=0.0)
+
+
 def spectral_axis(light: Light) -> tuple[Array, int]:
     """Return the wavelengths (n,) of light, in metres, and the batch axis along which they vary."""
     wavelength = light.wavelength
     if several := light.wavelengths_in_doubt:
         raise LightError(
-            f"the light of this path depends on several wavelengths, {listed(several)}, and "
-            f"which of them its spectrum is by is in doubt; say what they are in its spectrum, "
-            f"light.at_wavelengths(...)"
+            f"the light of this path depends on several wavelengths, {listed(several)}; say "
+            f"which are those of its spectrum, light.at_wavelengths(...)"
         )
     if wavelength is None:
         raise LightError(
-            "light of no known wavelengths has no spectrum; say which they are, "
-            "light.at_wavelengths(...), or trace a path that has an op.Wavelength"
+            "light of no known wavelengths has no spectrum; write light.at_wavelengths(...)"
         )
     check_known("the wavelengths that light is added up over", wavelength)
     every = np.broadcast_to(wavelength, light.shape)
@@ -47,8 +48,8 @@ def spectral_axis(light: Light) -> tuple[Array, int]:
             f"the wavelengths vary along axes {listed([*map(str, axes)])} of light of shape "
             f"{light.shape}, and a spectrum has one; take a part of the light"
         )
-    axis = axes[0]
-    grid = np.moveaxis(every, axis, 0).reshape(every.shape[axis], -1)[:, 0]
+    (axis,) = axes
+    grid = np.moveaxis(every, axis, -1)[(0,) * (every.ndim - 1)]
     if fault := grid_fault(grid):
         raise LightError(f"the wavelengths of the light {fault}; sort them, each once")
     return grid, axis
@@ -94,9 +95,6 @@ def weighted_sum(numbers: Any, weights: Any, axis: int) -> Any:
     """Return sums over an axis of numbers (..., k) times weights (n, k).
 
     By halves, so that sums do not depend on other axes.
-
-    >>> weighted_sum(np.ones((3, 1)), np.array([[1.0], [2.0], [1.0]]), 0)
-    array([4.])
     """
     shape = [1] * numbers.ndim
     shape[axis], shape[-1] = weights.shape
@@ -115,8 +113,7 @@ def noise_of_sum(light: Light, weights: Array, axis: int, stokes: Array) -> Arra
     shape = [1] * light.ndim
     shape[axis] = len(weights)
     floor = light.noise + rounding(known(light.stokes))
-    results: Array = np.sum(floor * np.abs(weights).reshape(shape), axis=axis)
-    return results.astype(stokes.dtype)
+    return np.sum(floor * np.abs(weights).reshape(shape), axis=axis).astype(stokes.dtype)
 
 
 def _edges(argument: Any) -> Array:
@@ -129,8 +126,7 @@ def _widths_of(results: Array, grid: Array) -> Array:
     """Return the widths, in nanometres, of bins with these edges, each about a wavelength."""
     if results.shape != (len(grid) + 1,):
         raise ShapeError(
-            f"{len(grid)} wavelengths have {len(grid) + 1} edges of bins, one more than there "
-            f"are, not edges of shape {results.shape}"
+            f"{len(grid)} wavelengths have {len(grid) + 1} edges of bins, not {results.shape}"
         )
     ordered = grid if len(grid) > 1 else results
     up = 1.0 if ordered[-1] > ordered[0] else -1.0
@@ -139,49 +135,34 @@ def _widths_of(results: Array, grid: Array) -> Array:
         place = int(np.argmax(outside))
         low, at, high = (1e9 * x for x in (results[place], grid[place], results[place + 1]))
         raise ValueFault(
-            f"bin {place} is from {low:g} nm to {high:g} nm, and its wavelength is {at:g} nm; give "
-            f"edges in the order of the wavelengths, each wavelength within its bin"
+            f"bin {place} is from {low:g} nm to {high:g} nm, and its wavelength is {at:g} nm; "
+            f"give edges in the order of the wavelengths, and around each"
         )
-    widths: Array = np.abs(np.diff(results * NANOMETRES))
-    return widths
+    return np.abs(np.diff(results * NANOMETRES))
 
 
 def _response_at(response: Any, grid: Array) -> Any:
     """Return the response at each wavelength, which is not below 0."""
     check_response("the response", response)
-    result = response.at(grid) if hasattr(response, "at") and not is_traced(response) else response
-    if not is_traced(result):
-        result = as_argument("the response", known(result), ShapeError)
-        if result.dtype.kind not in "biuf":
-            raise ShapeError(f"the response must be of real numbers, not {shown(response)}")
+    asked = hasattr(response, "at") and not is_traced(response)
+    result = _RESPONSE.check("the response", known(response.at(grid) if asked else response))
     if result.shape not in ((), (len(grid),)):
         raise ShapeError(
             f"the response has the shape {tuple(result.shape)}, and there are {len(grid)} "
             f"wavelengths; give one number for each, one for all, or a Spectrum"
         )
-    if is_traced(result):
-        return result
-    good = (result >= 0.0) & np.isfinite(result)
-    if not np.all(good):
-        bad = result[~good].flat[0]
-        raise ValueFault(f"the response is {bad:g}, and light has no {bad:g}-fold; give one >= 0")
-    return np.asarray(result, np.float64)
+    return result
 
 
 def _frame_without(light: Light, axis: int) -> Any:
     """Return the frame of light along an axis, which must be one."""
-    stored = light._cached_frame("frame")  # noqa: SLF001
-    if not callable(stored) and stored.z.ndim == 1:
-        return stored
     frame = light.frame
     if frame.z.ndim == 1:
         return frame
-    batch = light.shape
-    each = [np.broadcast_to(vector, (*batch, 3)) for vector in (frame.x, frame.y, frame.z)]
+    each = [np.broadcast_to(axes, (*light.shape, 3)) for axes in (frame.x, frame.y, frame.z)]
     if any(_varies(vectors, axis) for vectors in each):
         raise LightError(
             "light of each wavelength has a frame of its own, and light adds up in one; write "
             "light.in_frame(frame).integrate()"
         )
-    first = light[(slice(None),) * axis + (0,)]
-    return first.frame
+    return light[(slice(None),) * axis + (0,)].frame

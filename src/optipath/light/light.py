@@ -9,23 +9,25 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self
 import numpy as np
 
 from optipath.errors import FrameError, LightError, ParameterError, shown, unknown
-from optipath.light.arithmetic import (
+from optipath.light.array_axes import (
     OPERATORS,
     TAKES_NUMBERS,
+    ArrayAxes,
+    each_number,
     factor_of_light,
     handed_out,
     numbers_within,
     refuse,
     refuse_call,
     stacked_components,
+    why_refused,
 )
-from optipath.light.array_axes import ArrayAxes, each_number, why_refused
 from optipath.light.conventions import EllipsometricAngles, changed_stokes
 from optipath.light.frame import Frame
 from optipath.light.on_demand import (
     FramesOnDemand,
     common_wavelength,
-    inheriting,
+    inherited_noise,
     noise_in,
     part_of_wavelength,
     wavelengths_for,
@@ -143,7 +145,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             S0, S1, S2 and S3 each by itself, or an array of shape (..., 4).
         frame : Frame or callable
             The frame, or what returns it when somebody asks for it.
-        noise : ndarray of shape (...), or tuple, optional
+        noise : ndarray of shape (...), callable or tuple, optional
             What of the vectors is noise, as `noise_in` takes it.
         measured : bool, optional
             Whether it may be no light, as what it is made of: see `is_measured`.
@@ -187,13 +189,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         Returns
         -------
         Light
-
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name, or no light can be like that.
-        ShapeError
-            If the last axis has not four elements.
 
         Examples
         --------
@@ -447,11 +442,6 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         -------
         ndarray, shape (..., 4)
 
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name.
-
         Examples
         --------
         >>> Light([1.0, 0.0, 0.6, 0.8]).to("mitsuba")
@@ -701,7 +691,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         one, two = self._numbers, aligned._numbers
         with np.errstate(over="ignore", invalid="ignore"):
             total = (one + two).astype(coarser(one, two), copy=False)
-        noise = None if is_traced(total) else inheriting((self, aligned))
+        noise = None if is_traced(total) else inherited_noise((self, aligned))
         return self._like(total, noise, common_wavelength(self, aligned))
 
     def __radd__(self, other: object) -> Light:
@@ -814,9 +804,9 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         wavelength = part_of_wavelength(self, change)
         return Light.of(numbers, frame, noise, measured=self.is_measured, wavelength=wavelength)
 
-    def _inherited(self, factor: Any = 1.0, part: Any = None) -> tuple[Any, ...] | None:
+    def _inherited(self, factor: Any = 1.0, part: Any = None) -> Callable[[Array], Array] | None:
         """Return what light that is made of this one has of its noise."""
-        return None if is_traced(self.stokes) else inheriting((self,), factor, part=part)
+        return None if is_traced(self.stokes) else inherited_noise((self,), factor, part=part)
 
     @property
     def _numbers(self) -> Array:

@@ -24,7 +24,7 @@ from optipath.light.conventions import EllipsometricAngles, changed_matrix
 from optipath.light.decompositions import polar_parts, reciprocal, stacked, turn_of
 from optipath.light.frame import Frame
 from optipath.light.light import Light
-from optipath.light.on_demand import FramesOnDemand, inheriting, rounding
+from optipath.light.on_demand import FramesOnDemand, inherited_noise, rounding
 from optipath.light.passive import check_becomes_light, nan_where_no_light
 from optipath.light.polarization_state import direction, length, norm, ratio
 from optipath.values.angles import calls_up
@@ -155,17 +155,8 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         -------
         Mueller
 
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name.
-        ShapeError
-            If the last two axes have not four elements each.
-
         Examples
         --------
-        >>> import numpy as np
-        >>> from optipath import Mueller
         >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]]
         >>> Mueller.from_("mitsuba", quarter).matrix[3]
         array([0., 0., 1., 0.])
@@ -182,7 +173,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         Examples
         --------
-        >>> from optipath import Mueller
         >>> print(Mueller([[4, 2, 0, 0], [2, 4, 0, 0], [0, 0, 3, 0], [0, 0, 0, 3]]).diattenuation)
         0.5
         """
@@ -213,7 +203,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         Examples
         --------
-        >>> from optipath import Mueller
         >>> print(Mueller(np.diag([1.0, 0.5, 0.5, 0.5])).depolarization_index.round(12))
         0.5
         """
@@ -237,7 +226,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         Examples
         --------
-        >>> from optipath import Mueller
         >>> glass = [[0.5, 0.3, 0, 0], [0.3, 0.5, 0, 0], [0, 0, -0.4, 0], [0, 0, 0, -0.4]]
         >>> print(np.tan(Mueller(glass).psi).round(12), Mueller(glass).delta.round(4))
         0.5 3.1416
@@ -268,7 +256,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         Examples
         --------
-        >>> from optipath import Mueller
         >>> Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).coherency.real.diagonal()
         array([0.25, 0.25, 0.25, 0.25])
         """
@@ -299,7 +286,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         Examples
         --------
-        >>> from optipath import Mueller
         >>> print(Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).is_physical())
         False
         """
@@ -314,7 +300,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         Examples
         --------
-        >>> from optipath import Mueller
         >>> print(Mueller(np.eye(4)).noise)
         2.220446049250313e-16
         """
@@ -377,9 +362,8 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).nearest_physical().matrix.diagonal().round(12)
         array([ 1.5,  0.5,  0.5, -0.5])
         """
-        return Mueller.of(
-            decompositions.nearest_physical(self.matrix), self.frame_in, self.frame_out
-        )
+        nearest = decompositions.nearest_physical(self.matrix)
+        return Mueller.of(nearest, self.frame_in, self.frame_out)
 
     def reversed(self) -> Mueller:
         """Return what the same system does to light that goes back through it.
@@ -404,8 +388,11 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(back.frame_in.z)
         [ 0.  0. -1.]
         """
-        frames = self._mirrored("frame_out"), self._mirrored("frame_in")
-        back = self.of(reciprocal(self.matrix), *frames)
+
+        def mirrored(name: str) -> Callable[[], Frame]:
+            return lambda: getattr(self, name).reversed()
+
+        back = self.of(reciprocal(self.matrix), mirrored("frame_out"), mirrored("frame_in"))
         return back.with_noise(lambda _: self.noise, given=self.is_given)
 
     def to(self, convention: str) -> Array:
@@ -421,11 +408,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         Returns
         -------
         ndarray, shape (..., 4, 4)
-
-        Raises
-        ------
-        ValueFault
-            If there is no convention of that name.
 
         Examples
         --------
@@ -496,7 +478,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             if judged:
                 product = nan_where_no_light(matrix, self.noise, stokes, product)
         else:
-            noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
+            noise = inherited_noise((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
             if judged:
                 check_becomes_light(matrix, self.noise, stokes, product)
         return Light.of(product, behind, noise, **light.origin())
@@ -543,10 +525,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         matrix = flat.reshape(*flat.shape[:-1], 4, 4)
         part = Mueller.of(matrix, *frames)
         return part.with_noise(lambda _: change(self.noise), given=self.is_given)
-
-    def _mirrored(self, name: str) -> Callable[[], Frame]:
-        """Return what makes the mirrored frame when somebody asks, since most nobody looks."""
-        return lambda: getattr(self, name).reversed()
 
     def _over_m00(self, entries: Array) -> Array:
         """Return entries over M00; NaN where that is no more than noise."""
@@ -671,12 +649,7 @@ class LuChipman:
 
 
 def noise_of_product(behind: tuple[Any, Any], before: tuple[Any, Any]) -> Any:
-    """Return the noise in a product of matrices, shape (...), by running error analysis.
-
-    >>> one = np.eye(4), 2.0**-52
-    >>> print(noise_of_product(one, one) * 2.0**52)
-    6.0
-    """
+    """Return the noise in a product of matrices, shape (...), by running error analysis."""
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         one, two = _size(*behind), _size(*before)
         both = one * two

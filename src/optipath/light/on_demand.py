@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import FrameError, LightError, ShapeError
 from optipath.light.array_axes import each_number
 from optipath.light.frame import Frame
-from optipath.values.arrays import locked
+from optipath.values.arrays import broadcast_fault, joint_shape, locked
 from optipath.values.jax_values import is_traced, known, namespace
 from optipath.values.units import displayed
 from optipath.values.wavelength import Wavelength
@@ -49,12 +49,7 @@ class FramesOnDemand:
 
 
 def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], Any]) -> Frame:
-    """Return the frames that belong to a part of a batch.
-
-    >>> frames = Frame().turned([0.0, 0.5, 1.0])
-    >>> indexed_frame(frames, (3,), lambda numbers: numbers[1]) == Frame().turned(0.5)
-    True
-    """
+    """Return the frames that belong to a part of a batch."""
     if frame.z.ndim == 1:
         return frame
     axes = [np.broadcast_to(axis, (*batch, 3)) for axis in (frame.x, frame.y, frame.z)]
@@ -67,63 +62,46 @@ def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], 
     return Frame.trusted(x, y, z, frame.rounding)
 
 
-def inheriting(
+def inherited_noise(
     lights: tuple[Any, ...],
     factor: Any = 1.0,
     *,
     mixed: bool = False,
-    part: Any = None,
+    part: Callable[[Any], Any] | None = None,
     added: Any = 0.0,
-) -> tuple[Any, ...]:
-    """Return what light keeps that is made of others, for its noise to be found by."""
+) -> Callable[[Array], Array]:
+    """Return what finds the noise (...) in Stokes vectors that are made of some lights."""
     for light in lights:
         # What is inherited twice is found now, lest sums of many lights keep all of them.
-        noise = vars(light).get("_noise")
-        if isinstance(noise, tuple) and noise[0] is inherited_noise:
+        if callable(vars(light).get("_noise")):
             vars(light)["_noise"] = light.noise
-    return inherited_noise, lights, factor, mixed, part, added
 
+    @np.errstate(over="ignore", under="ignore", invalid="ignore")
+    def noise(stokes: Array) -> Array:
+        total = np.zeros(stokes.shape[:-1], stokes.dtype)
+        for light in lights:
+            numbers = known(light.stokes)
+            floor = light.noise + rounding(numbers) if mixed else light.noise
+            floor = floor * np.abs(factor) + added * np.abs(numbers[..., 0])
+            total = total + (floor if part is None else part(floor))
+        return total
 
-@np.errstate(over="ignore", under="ignore", invalid="ignore")
-def inherited_noise(
-    lights: tuple[Any, ...],
-    factor: Any,
-    mixed: bool,  # noqa: FBT001 - called by what is kept of it
-    part: Callable[[Any], Any] | None,
-    added: Any,
-    stokes: Array,
-) -> Array:
-    """Return the noise (...) in Stokes vectors."""
-    total = np.zeros(stokes.shape[:-1], stokes.dtype)
-    for light in lights:
-        numbers = known(light.stokes)
-        floor = light.noise + rounding(numbers) if mixed else light.noise
-        floor = floor * np.abs(factor) + added * np.abs(numbers[..., 0])
-        total = total + (floor if part is None else part(floor))
-    return total
+    return noise
 
 
 def noise_in(stokes: Any, noise: Any) -> Any:
-    """Return the noise (...) in Stokes vectors: the rounding of S0 at least.
-
-    >>> print(noise_in(np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-9)))
-    1e-09
-    """
+    """Return the noise (...) in Stokes vectors: the rounding of S0 at least."""
     least = rounding(stokes)
     if noise is None or is_traced(stokes):
         return least
     if isinstance(noise, tuple):
-        result, *argument = noise
-        noise = result(*argument, stokes)
-    return np.maximum(least, noise)
+        found, *arguments = noise
+        noise = found(*arguments, stokes)
+    return np.maximum(least, noise(stokes) if callable(noise) else noise)
 
 
 def rounding(stokes: Any) -> Any:
-    """Return by how much sums of numbers as large as S0 are rounded, of shape (...).
-
-    >>> print(rounding(np.array([2.0, 0.0, 0.0, 0.0], np.float32)))
-    2.3841858e-07
-    """
+    """Return by how much sums of numbers as large as S0 are rounded, of shape (...)."""
     xp = namespace(stokes)
     with np.errstate(under="ignore", over="ignore"):
         return abs(stokes[..., 0]) * float(xp.finfo(stokes.dtype).eps)
@@ -169,19 +147,12 @@ def part_of_wavelength(light: Any, change: Callable[[Any], Any]) -> Any:
 
 
 def wavelengths_for(batch: tuple[int, ...], argument: Any) -> Array:
-    """Return wavelengths, in metres, that somebody gives for light.
-
-    >>> wavelengths_for((2,), ["500 nm", "2.4 eV"]).round(9)
-    array([5.00e-07, 5.17e-07])
-    """
+    """Return wavelengths, in metres, that somebody gives for light."""
     result = Wavelength().resolve(argument).value
     shape = tuple(result.shape)
-    if len(shape) > len(batch) or any(
-        own not in (1, whole) for own, whole in zip(shape[::-1], batch[::-1], strict=False)
-    ):
+    if broadcast_fault({"one": shape, "other": batch}) or joint_shape(shape, batch) != batch:
         raise ShapeError(
             f"wavelengths of shape {shape} do not fit light of shape {batch}; give one for each "
             f"light, or an array that broadcasts to them, such as wavelengths[:, None]"
         )
-    wavelengths: Array = result if is_traced(result) else locked(np.array(result, np.float64))
-    return wavelengths
+    return result if is_traced(result) else locked(np.array(result, np.float64))

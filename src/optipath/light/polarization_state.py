@@ -18,15 +18,13 @@ from optipath.values.jax_values import is_traced, namespace
 from optipath.values.precision import coarser, rounding_of
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from optipath.values.precision import Array
 
 
 def ratio(part: Any, whole: Any) -> Any:
-    """Return a part over the whole: 0 where that is 0, and NaN where it is infinite.
-
-    >>> ratio(np.array([1.0, 1.0, 1.0]), np.array([4.0, 0.0, np.inf]))
-    array([0.25, 0.  ,  nan])
-    """
+    """Return a part over the whole: 0 where that is 0, and NaN where it is infinite."""
     xp, dark = namespace(whole), whole == 0.0
     # What is not physical may run over, into infinity.
     with np.errstate(over="ignore", invalid="ignore"):
@@ -35,11 +33,7 @@ def ratio(part: Any, whole: Any) -> Any:
 
 
 def length(*components: Any) -> Any:
-    """Return the length of a vector from its components, however small; at 0 its slope is 0.
-
-    >>> print(length(np.float64(3e-200), np.float64(4e-200)))
-    5e-200
-    """
+    """Return the length of a vector from its components, however small; at 0 its slope is 0."""
     return reduce(_hypotenuse, components)
 
 
@@ -56,11 +50,7 @@ def norm(vector: Array) -> Array:
 
 
 def direction(y: Any, x: Any) -> Any:
-    """Return the angle in rad from x to y in (-pi, pi], whatever signs zeros have; 0 of 0, 0.
-
-    >>> print(direction(np.float64(-0.0), np.float64(-1.0)).round(4))
-    3.1416
-    """
+    """Return the angle in rad from x to y in (-pi, pi], whatever signs zeros have; 0 of 0, 0."""
     xp = namespace(y)
     there = (x != 0.0) | (y != 0.0)
     angle = xp.arctan2(xp.where(there, y, 0.0), xp.where(there, x, 1.0))
@@ -68,30 +58,18 @@ def direction(y: Any, x: Any) -> Any:
 
 
 def shares(stokes: Array) -> Array:
-    """Return the Stokes vector (..., 4) over S0; 0 where that is 0.
-
-    >>> shares(np.array([2.0, 1.0, 0.0, 0.0]))
-    array([1. , 0.5, 0. , 0. ])
-    """
+    """Return the Stokes vector (..., 4) over S0; 0 where that is 0."""
     return ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
 
 
 def polarised(stokes: Array) -> tuple[Array, Array, Array]:
-    """Return S1, S2 and S3 of (..., 4) over S0.
-
-    >>> [part.item() for part in polarised(np.array([2.0, 1.0, 0.0, 0.5]))]
-    [0.5, 0.0, 0.25]
-    """
+    """Return S1, S2 and S3 of (..., 4) over S0."""
     stokes = shares(stokes)
     return stokes[..., 1], stokes[..., 2], stokes[..., 3]
 
 
 def ellipse_of(numbers: Array, floor: Array) -> tuple[Array, Array, Array]:
-    """Return (s1, s2, s3) over S0, 0 where they are no more than noise: without a sign, no angle.
-
-    >>> [part.item() for part in ellipse_of(np.array([2.0, 1.0, 1e-9, 0.5]), np.array(1e-8))]
-    [0.5, 0.0, 0.25]
-    """
+    """Return (s1, s2, s3) over S0, 0 where they are no more than noise, which has no sign."""
     if is_traced(numbers):  # A slope is there also at 0.
         return polarised(numbers)
     seen = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, shares(numbers))
@@ -99,11 +77,7 @@ def ellipse_of(numbers: Array, floor: Array) -> tuple[Array, Array, Array]:
 
 
 def minor_over_major(s1: Array, s2: Array, s3: Array) -> Array:
-    """Return the minor over the major axis, S3 / (p + hypot(S1, S2)); 0 of no ellipse.
-
-    >>> print(minor_over_major(np.float64(0.3), np.float64(0.0), np.float64(-0.4)))
-    -0.5
-    """
+    """Return the minor over the major axis, S3 / (p + hypot(S1, S2)); 0 of no ellipse."""
     xp, linear = namespace(s1), length(s1, s2)
     # What is not physical may be infinite, and then is NaN here.
     with np.errstate(over="ignore", invalid="ignore"):
@@ -112,11 +86,7 @@ def minor_over_major(s1: Array, s2: Array, s3: Array) -> Array:
 
 
 def where_there(value: Any, stokes: Array, floor: Array, *components: int) -> Array:
-    """Return a value, NaN where light is dark, or some components are noise.
-
-    >>> print(where_there(0.5, np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-16), 1, 2))
-    nan
-    """
+    """Return a value, NaN where light is dark, or some components are noise."""
     there = stokes[..., 0] > floor
     if components:
         there = there & (length(*(stokes[..., i] for i in components)) > floor)
@@ -125,13 +95,7 @@ def where_there(value: Any, stokes: Array, floor: Array, *components: int) -> Ar
 
 
 def turned_stokes(stokes: Array, turn: Any) -> Array:
-    """Return Stokes vectors (..., 4) in a frame that is turned.
-
-    >>> from optipath.light.frame import Frame
-    >>> quarter = Frame().turn_to(Frame().turned(np.pi / 4))
-    >>> turned_stokes(np.array([1.0, 1.0, 0.0, 0.5]), quarter).round(12)
-    array([ 1. ,  0. , -1. ,  0.5])
-    """
+    """Return Stokes vectors (..., 4) in a frame that is turned."""
     xp, (s0, s1, s2, s3) = namespace(stokes), (stokes[..., i] for i in range(4))
     with np.errstate(over="ignore", invalid="ignore"):
         parts = (s0, *turn_linear(turn, s1, s2), s3)
@@ -146,10 +110,7 @@ _CURE = (
 
 
 def check_physical(stokes: Array) -> None:
-    """Refuse Stokes vectors (..., 4) that no light has; NaN is what nobody has read.
-
-    >>> check_physical(np.array([1.0, 0.6, 0.0, np.nan]))
-    """
+    """Refuse Stokes vectors (..., 4) that no light has; NaN is what nobody has read."""
     endless = np.asarray(np.isinf(stokes).any(axis=-1))
     message = np.where(np.isnan(stokes) | endless[..., np.newaxis], 0.0, stokes)
     beyond = ~(can_be_light(message, rounding_of(stokes)) | np.isnan(stokes[..., 0]))
@@ -164,11 +125,7 @@ def check_physical(stokes: Array) -> None:
 
 
 def problem_of(vector: Array) -> str:
-    """Say why a Stokes vector is no light.
-
-    >>> problem_of(np.array([1.0, 3.0, 0.0, 4.0]))
-    'polarised by 500 %'
-    """
+    """Say why a Stokes vector is no light."""
     if np.isinf(vector).any():
         return "which is not finite"
     if vector[0] < 0.0:
@@ -181,12 +138,7 @@ def problem_of(vector: Array) -> str:
 
 
 def nearest_light(stokes: Any) -> Any:
-    """Return physical Stokes vectors (..., 4): S0 is kept, S1, S2, S3 are scaled together.
-
-    >>> nearest_light(np.array([[1.0, 3.0, 0.0, 4.0], [-1.0, 0.5, 0.0, 0.0]]))
-    array([[1. , 0.6, 0. , 0.8],
-           [0. , 0. , 0. , 0. ]])
-    """
+    """Return physical Stokes vectors (..., 4): S0 is kept, S1, S2, S3 are scaled together."""
     xp = namespace(stokes)
     s0, rest = xp.maximum(stokes[..., :1], 0.0), stokes[..., 1:]
     read = xp.where(xp.isnan(rest), 0.0, rest)
@@ -194,3 +146,21 @@ def nearest_light(stokes: Any) -> Any:
     beyond = polarised > s0
     share = xp.where(beyond, s0 / xp.where(beyond, polarised, 1.0), 1.0)
     return xp.concatenate([s0, rest * share], axis=-1)
+
+
+UNDERFLOW = 2.0**60
+"""How many times the smallest normal number light must be, lest what underflows is seen in it."""
+
+
+@np.errstate(under="ignore", over="ignore")
+def unscaled(stokes: Array, exponent: Any) -> Array:
+    """Return vectors (..., 4) times two to a power; 0 where none is a normal number any more."""
+    result = np.asarray(np.ldexp(stokes, np.asarray(exponent)[..., np.newaxis]))
+    # Components that are not read are NaN, as is light that cannot be, which is not dark.
+    result[np.fmax.reduce(np.abs(result), axis=-1) < np.finfo(result.dtype).tiny] = 0.0
+    return result
+
+
+def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
+    """Tell where light is so weak that what underflows on the way may be seen in it."""
+    return np.asarray(intensity < np.finfo(intensity.dtype).tiny * UNDERFLOW)

@@ -20,11 +20,7 @@ _SHOWN = 6
 
 
 def text_of(numbers: Any, frame: Frame) -> str:
-    """Return light (..., 4) as one writes it, a few of very many.
-
-    >>> text_of(np.array([1.0, 0.0, 0.0, 0.5]), Frame())
-    'Light([1. , 0. , 0. , 0.5])'
-    """
+    """Return light (..., 4) as one writes it, a few of very many."""
     most = 4 * _SHOWN
     messages = [
         repr(numbers)

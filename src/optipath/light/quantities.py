@@ -54,10 +54,13 @@ class LightQuantity:
     """Of an angle whose ends are one."""
     reads: Literal["stokes", "linear", "intensity"] = "stokes"
     """How much a detector must read."""
-    printed: str = ""
-    """What `optipath run` calls it, if it prints it."""
-    is_swept: bool = True
-    """Whether sweeps and uncertainties have it."""
+    longer: str = ""
+    """What `optipath run` calls it, if not as `variable`."""
+
+    @property
+    def printed(self) -> str:
+        """What `optipath run` calls it."""
+        return self.longer or self.variable
 
     @property
     def shown_unit(self) -> str:
@@ -109,17 +112,12 @@ COMPONENTS = (
     LightQuantity("S2", "2", "", "diagonal over antidiagonal", reads="linear"),
     LightQuantity("S3", "3", "", "right-handed over left-handed circular"),
 )
-_STATE = (
-    LightQuantity("DoP", "dop", "1", "degree of polarisation", _of_dop, (0.0, 1.0), printed="DoP"),
+_SHARE = 0.0, 1.0
+
+DERIVED = (
+    LightQuantity("DoP", "dop", "1", "degree of polarisation", _of_dop, _SHARE),
     LightQuantity(
-        "DoLP",
-        "dolp",
-        "1",
-        "degree of linear polarisation",
-        _of_dolp,
-        (0.0, 1.0),
-        reads="linear",
-        printed="DoLP",
+        "DoLP", "dolp", "1", "degree of linear polarisation", _of_dolp, _SHARE, reads="linear"
     ),
     LightQuantity(
         "AoP",
@@ -130,7 +128,6 @@ _STATE = (
         (-90.0, 90.0),
         np.pi,
         reads="linear",
-        printed="AoP",
     ),
     LightQuantity(
         "ellipticity",
@@ -139,15 +136,6 @@ _STATE = (
         "minor over major axis, with the sign of S3",
         _of_ellipticity,
         (-1.0, 1.0),
-        printed="ellipticity",
-    ),
-    LightQuantity(
-        "ellipticity_angle",
-        "ellipticity_angle",
-        "rad",
-        "arctangent of the ellipticity",
-        printed="ellipticity angle",
-        is_swept=False,
     ),
     LightQuantity(
         "psi",
@@ -156,7 +144,7 @@ _STATE = (
         "ellipsometric psi of the polarised part",
         _of_psi,
         (0.0, 90.0),
-        printed="Psi (ellipsometry)",
+        longer="Psi (ellipsometry)",
     ),
     LightQuantity(
         "delta",
@@ -166,11 +154,13 @@ _STATE = (
         _of_delta,
         (-180.0, 180.0),
         2.0 * np.pi,
-        printed="Delta (ellipsometry)",
+        longer="Delta (ellipsometry)",
     ),
 )
-DERIVED = tuple([each for each in _STATE if each.is_swept])
 """What is computed of the light when somebody asks for it."""
 
+_ELLIPTICITY_ANGLE = LightQuantity(
+    "ellipticity angle", "ellipticity_angle", "rad", "arctangent of the ellipticity"
+)
 QUANTITIES = (*COMPONENTS, *DERIVED)
-PRINTED = tuple([each for each in _STATE if each.printed])
+PRINTED = (*DERIVED[:4], _ELLIPTICITY_ANGLE, *DERIVED[4:])

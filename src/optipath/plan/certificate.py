@@ -11,7 +11,7 @@ import numpy as np
 from optipath.errors import ParameterError, ValueFault, collecting
 from optipath.kernels.carriers.intensities import Boosts, boosted, largest_error, ratio_bounds
 from optipath.kernels.primitives import NUMPY
-from optipath.light.underflow import underflows
+from optipath.light.polarization_state import underflows
 from optipath.values.arrays import check_broadcast, entries_of, same_fields
 from optipath.values.domains import Domain
 

@@ -32,7 +32,7 @@ from optipath.kernels.exponential import reproducible_numpy
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import DIGITS
 from optipath.light.decompositions import lack, tolerance_for
-from optipath.light.underflow import underflows, unscaled
+from optipath.light.polarization_state import underflows, unscaled
 from optipath.plan.loops import CloserLook, check_gains
 from optipath.values.arrays import joint_shape
 from optipath.values.precision import wide

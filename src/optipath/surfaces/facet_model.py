@@ -10,7 +10,7 @@ from optipath.elements.fresnel import number_within, parts_of
 from optipath.errors import SurfaceError, unknown
 from optipath.kernels.catalog import REFLECTION
 from optipath.kernels.facets import MASKINGS, FacetScattering
-from optipath.light.frame import Frame, rounding_in, vectors
+from optipath.light.frame import Frame, vectors
 from optipath.light.mueller import Mueller
 from optipath.materials.index_domains import INDEX, OUTSIDE
 from optipath.materials.material import Material
@@ -161,7 +161,7 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
     array([0., 1., 0.])
     """
     check_known(name, direction)
-    argument, rounding = vectors(name, direction), rounding_in(direction)
+    argument, rounding = vectors(name, direction)
     length = np.linalg.norm(argument, axis=-1)
     if np.any(bad := np.abs(length - 1.0) > max(_UNIT, 2.0 * rounding)):
         raise SurfaceError(

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import Fault, OptipathError
-from optipath.kernels.primitives import NUMPY
 from optipath.values.angles import CosSin
 from optipath.values.arrays import broadcast_fault, place_text
 from optipath.values.curve_value import CurveValue
@@ -31,6 +30,8 @@ _AT_ONCE = 8192
 class Agreement:
     """Numbers that must fit to each other."""
 
+    shows_in_light = False  # Whether light is not finite where they do not fit.
+
     operands: tuple[Operand, ...]
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
@@ -40,11 +41,6 @@ class Agreement:
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         """Say of numbers of one path that they do not fit, and the cure."""
         raise NotImplementedError
-
-    @property
-    def shows_in_light(self) -> bool:
-        """Whether light is not finite where they do not fit, so that nobody need look before."""
-        return False
 
     @property
     def rests_on(self) -> tuple[str, ...]:
@@ -90,7 +86,12 @@ class Agreement:
         at, misfit = result
         varying = [place for place, array in enumerate(arrays) if np.any(array != array.flat[0])]
         fault = Fault.of(self.sentence(*misfit, varying=varying))
-        return fault.but(reason=fault.reason + _path_text(arrays, at))
+        shape = np.broadcast_shapes(*(array.shape for array in arrays))
+        if (count := math.prod(shape)) == 1:
+            return fault
+        return fault.but(
+            reason=f"{fault.reason} ({place_text(shape, at).strip()}, of {count} paths)"
+        )
 
     def _first_misfit(self, arrays: list[Any]) -> tuple[int, list[float]] | None:
         """Return the first path whose numbers do not fit, and these; None where all do."""
@@ -133,13 +134,6 @@ def first_faults(
     return first or [fault for _, fault in results[:1]]
 
 
-def _path_text(arrays: list[Any], at: int) -> str:
-    """Say which path of how many has a fault; nothing of a single one."""
-    shape = np.broadcast_shapes(*(array.shape for array in arrays))
-    count = math.prod(shape)
-    return f" ({place_text(shape, at).strip()}, of {count} paths)" if count > 1 else ""
-
-
 def _number(operand: Operand, arguments: Mapping[str, Resolved]) -> Any:
     """Return what an operand comes to; an angle that is given by its cosine and sine, as one."""
     value: Any = operand.value
@@ -147,17 +141,11 @@ def _number(operand: Operand, arguments: Mapping[str, Resolved]) -> Any:
         angle: Any = arguments[value.name].value
         if type(angle) is CosSin:
             arguments = {value.name: arguments[value.name]._replace(value=angle.angle)}
-    return operand.evaluated(NUMPY, operand.raw(arguments))
+    return operand.at(arguments)
 
 
 def text_of(operand: Operand, number: float, unit: str = "") -> str:
-    """Write a number, and whose value it is.
-
-    >>> text_of(Operand(Parameter("n")), 1.5)
-    "1.5 (parameter 'n')"
-    >>> text_of(Operand(2 * Parameter("n")), 1.5)
-    '2 * n = 1.5'
-    """
+    """Write a number, and whose value it is."""
     value: Any = operand.value
     number_text = f"{number:.{10 if unit else 12}g}{unit}"
     if not isinstance(value, Parameter):
@@ -170,11 +158,7 @@ def text_of(operand: Operand, number: float, unit: str = "") -> str:
 
 
 def is_single(xp: Any, numbers: Any) -> Any:
-    """Tell of numbers whether they have been rounded to single precision.
-
-    >>> is_single(np, np.array([1.33, np.float32(1.33), 1.5]))
-    array([False,  True, False])
-    """
+    """Tell of numbers whether they have been rounded to single precision."""
     numbers = xp.asarray(numbers)
     grains = numbers * 4096.0
     rounded = numbers.astype(np.float32)

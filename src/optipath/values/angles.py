@@ -66,8 +66,7 @@ class CosSin(Unchanging):
     def __init__(self, cos: Any, sin: Any = None) -> None:
         if sin is None:
             raise ParameterError(
-                f"CosSin takes a cosine and a sine, not {shown(cos)} alone; give an angle itself, "
-                f"without CosSin"
+                f"CosSin takes a cosine and a sine, not {shown(cos)} alone; give an angle itself"
             )
         cos, sin = _numbers("cos", cos), _numbers("sin", sin)
         if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}):
@@ -106,8 +105,7 @@ class CosSin(Unchanging):
         """
         if not is_angle(self.cos, self.sin):
             raise ParameterError(
-                f"{what} is given by a cosine and a sine that belong to no angle: "
-                f"cos^2 + sin^2 is not 1; divide both by its root"
+                f"cosine and sine of {what} belong to no angle; divide both by hypot(cos, sin)"
             )
 
     def __eq__(self, other: object) -> bool:
@@ -125,11 +123,7 @@ class CosSin(Unchanging):
 
 
 def within_right_angle(cos: Any, sin: Any) -> Any:
-    """Return cosines; 0 where the angle is beyond a right one by the rounding of float32.
-
-    >>> within_right_angle(np.cos(np.float32([np.pi / 2.0])), np.ones(1, np.float32))
-    array([0.], dtype=float32)
-    """
+    """Return cosines; 0 where the angle is beyond a right one by the rounding of float32."""
     kind = getattr(cos, "dtype", np.dtype(np.float64))
     if kind != np.float32 or is_jax(cos) or is_jax(sin) or not np.any(cos < 0.0):
         return cos
@@ -138,11 +132,7 @@ def within_right_angle(cos: Any, sin: Any) -> Any:
 
 
 def is_angle(cos: Any, sin: Any) -> bool:
-    """Tell whether cosines and sines belong to angles, to the rounding in which they are given.
-
-    >>> is_angle(np.array(0.6), np.array(0.8)), is_angle(np.array(0.6), np.array(0.7))
-    (True, False)
-    """
+    """Tell whether cosines and sines belong to angles, to the rounding in which they are given."""
     apart = max(_APART, 2.0 * max(rounding_of(cos), rounding_of(sin)))
     cos, sin = doubles(cos), doubles(sin)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -163,8 +153,7 @@ def _pure(text: str) -> Any:
     """Return the number that a text stands for, which is a cosine or a sine, and no angle."""
     if unit_of(text):
         raise UnitError(
-            f"'{text}' has a unit, but a cosine and a sine are pure numbers; give the angle itself "
-            f"in place of a CosSin"
+            f"'{text}' has a unit, but cosines and sines are pure numbers; give the angle itself"
         )
     return parse_quantity(text, "")
 
@@ -182,9 +171,6 @@ def warn_of_degrees(what: str, value: Any, place: Callable[[Any], Any] | None = 
     """Warn of plain numbers beyond a whole turn that make angles beyond a turn, too.
 
     The sentence is the same for all values, so that Python shows it once a line.
-
-    >>> warn_of_degrees("a turn", 1.0)
-    >>> warn_of_degrees("a turn", "720 deg")
     """
     if type(value) is float and (-TURN <= value <= TURN or math.isinf(value)):
         return
@@ -221,11 +207,7 @@ def refused(number: float, unit: str, limits: tuple[float, float]) -> tuple[str,
 
 
 def range_cure(wanted: str, hint: str) -> Cure:
-    """Return the cure of a refused number; texts at the command line are in no radians.
-
-    >>> range_cure("0 or more", "; did you mean 0.5?").written("command")
-    'give 0 or more; did you mean 0.5?'
-    """
+    """Return the cure of a refused number; texts at the command line are in no radians."""
     usual = f"give {wanted}" + ("" if hint == _RADIANS else hint)
     return Cure(f"give {wanted}{hint}", command=usual, page=usual)
 

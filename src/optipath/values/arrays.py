@@ -35,20 +35,12 @@ def array_of(
     error: type[OptipathError] = ValueFault,
     limits: tuple[float, float] = ENDLESS,
 ) -> Array:
-    """Return an array of a value, numbers as float64 or complex128; words among them stay words.
-
-    >>> array_of("a turn", [0.5, "none"]).tolist()
-    [0.5, 'none']
-    """
+    """Return an array of a value, numbers as float64 or complex128; words among them stay words."""
     return doubles(as_argument(what, value, error), limits)
 
 
 def as_argument(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
-    """Return an array of a value, in its own precision; float16 as float64.
-
-    >>> as_argument("a turn", [0.5, 1.0])
-    array([0.5, 1. ])
-    """
+    """Return an array of a value, in its own precision; float16 as float64."""
     try:
         reason = _more_than_numbers(value)
         array = np.asarray(None if reason else value)
@@ -69,11 +61,7 @@ def as_argument(what: str, value: Any, error: type[OptipathError] = ValueFault) 
 def entries_of(
     what: str, each: str, value: Any, error: type[OptipathError] = ValueFault
 ) -> tuple[Any, ...]:
-    """Return the entries of a sequence, of which each may be an array or a parameter.
-
-    >>> entries_of("turns", "angles", [0.5, "30 deg"])
-    (0.5, '30 deg')
-    """
+    """Return the entries of a sequence, of which each may be an array or a parameter."""
     try:
         reason = _more_than_numbers(value)
         is_sequence = not isinstance(value, (str, bytes, AbstractSet, Mapping))
@@ -131,11 +119,7 @@ MOST_PATHS = 2**53
 
 
 def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
-    """Return the shape that shapes broadcast to.
-
-    >>> joint_shape((3, 1), (), (4,))
-    (3, 4)
-    """
+    """Return the shape that shapes broadcast to."""
     result = _joint(shapes)
     if result is None or len(result) > MOST_AXES or prod(result) > MOST_PATHS:
         raise ShapeError(*broadcast_fault({f"array {n}": s for n, s in enumerate(shapes, 1)}))
@@ -143,12 +127,7 @@ def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
-    """Return the sentence that names shapes which do not broadcast, or nothing.
-
-    >>> print(*broadcast_fault({"delta": (7,), "rho": (4,)}))  # doctest: +NORMALIZE_WHITESPACE
-    arrays do not broadcast together: delta (7,), rho (4,);
-    make their axes equal or 1, as x[:, None] does
-    """
+    """Return the sentence that names shapes which do not broadcast, or nothing."""
     result = _joint(shapes.values())
     if result is None:
         named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
@@ -186,11 +165,7 @@ def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
 
 
 def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]:
-    """Return an array of real numbers whose last axes are given; what is JAX's stays so.
-
-    >>> real_array("a Stokes vector", [1, 0, 0, 0], (4,))
-    array([1., 0., 0., 0.])
-    """
+    """Return an array of real numbers whose last axes are given; what is JAX's stays so."""
     array = value if is_jax(value) else as_argument(what, value, ShapeError)
     if array.dtype.kind in "iub":
         array = array.astype(np.float64)
@@ -201,21 +176,13 @@ def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]
 
 
 def place_text(shape: tuple[int, ...], at: int) -> str:
-    """Say where something stands in an array, ready to be put behind it; nothing of one alone.
-
-    >>> place_text((5,), 3), place_text((2, 3), 4), place_text((), 0)
-    (' at 3', ' at (1, 1)', '')
-    """
+    """Say where something stands in an array, ready to be put behind it; nothing of one alone."""
     place = tuple(int(i) for i in np.unravel_index(at, shape))
     return f" at {place if len(place) > 1 else place[0]}" if place else ""
 
 
 def first_place(bad: npt.NDArray[np.bool_]) -> str:
-    """Say where the first of an array is true, as `place_text` does.
-
-    >>> first_place(np.array([False, True, True]))
-    ' at 1'
-    """
+    """Say where the first of an array is true, as `place_text` does."""
     return place_text(bad.shape, int(np.argmax(bad)))
 
 
@@ -237,10 +204,7 @@ def refuse_too_large(
     error: type[OptipathError] = ShapeError,
     what: str = PATHS,
 ) -> None:
-    """Refuse a batch that takes more memory than the machine has.
-
-    >>> refuse_too_large((1000, 1000), 32)
-    """
+    """Refuse a batch that takes more memory than the machine has."""
     needed = prod(batch) * each
     if needed > _LITTLE and needed > memory():
         raise error(_too_much(batch, each, cure, what))
@@ -252,26 +216,17 @@ def enough_for(
     each: int,
     cure: str = CURE,
     error: type[OptipathError] = ShapeError,
-    what: str = PATHS,
 ) -> Iterator[None]:
-    """Do what takes memory for each path of a batch, if there is enough of it.
-
-    >>> with enough_for((1000, 1000), 32):
-    ...     pass
-    """
-    refuse_too_large(batch, each, cure, error, what)
+    """Do what takes memory for each path of a batch, if there is enough of it."""
+    refuse_too_large(batch, each, cure, error)
     try:
         yield
     except MemoryError:
-        raise error(_too_much(batch, each, cure, what)) from None
+        raise error(_too_much(batch, each, cure, PATHS)) from None
 
 
 def memory() -> int:
-    """Return how many bytes of memory the machine has, or how many a process may take.
-
-    >>> memory() > 2**20
-    True
-    """
+    """Return how many bytes of memory the machine has, or how many a process may take."""
     try:
         import resource  # noqa: PLC0415 - Windows has none
 
@@ -313,22 +268,14 @@ class Unchanging:
 
 
 def locked(value: Any) -> Any:
-    """Return a value; an array of NumPy's, which nobody else has, is read-only from now on.
-
-    >>> locked(np.zeros(2)).flags.writeable
-    False
-    """
+    """Return a value; an array of NumPy's, which nobody else has, is read-only from now on."""
     if type(value) is np.ndarray:
         value.setflags(write=False)
     return value
 
 
 def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
-    """Return a value that nobody can change: arrays as read-only copies, the rest as it is.
-
-    >>> read_only([1.0, 2.0]).flags.writeable
-    False
-    """
+    """Return a value that nobody can change: arrays as read-only copies, the rest as it is."""
     if type(value) in _SCALARS or is_traced(value):
         return value
     try:
@@ -347,11 +294,7 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
 
 
 def same(first: Any, second: Any) -> bool:
-    """Tell whether two values are equal, arrays by shape and elements.
-
-    >>> same(np.array([1.0, 2.0]), np.array([1.0, 2.0]))
-    True
-    """
+    """Tell whether two values are equal, arrays by shape and elements."""
     if first is second:
         return True
     if isinstance(first, tuple) and isinstance(second, tuple):
@@ -367,24 +310,14 @@ def same(first: Any, second: Any) -> bool:
 
 
 def changed(value: T, **others: Any) -> T:
-    """Return a copy of a frozen dataclass with other fields, of which nothing is checked again.
-
-    >>> from optipath.materials.material import Material
-    >>> changed(Material(1.5), k=0.1)
-    Material(n=1.5, k=0.1)
-    """
+    """Return a copy of a frozen dataclass with other fields, of which nothing is checked again."""
     result = copy(value)
     vars(result).update(others)
     return result
 
 
 def same_fields(first: Any, second: Any) -> Any:
-    """Tell whether two values of one dataclass have the same fields; for its ``__eq__``.
-
-    >>> from optipath.materials.material import Material
-    >>> same_fields(Material(1.5), Material(1.5, 0.1))
-    False
-    """
+    """Tell whether two values of one dataclass have the same fields; for its ``__eq__``."""
     if type(second) is not type(first):
         return NotImplemented
     return all(same(getattr(first, f.name), getattr(second, f.name)) for f in fields(first))
@@ -399,12 +332,7 @@ def numbers_for(
     parse: Callable[[str], Any],
     error: type[OptipathError] = ValueFault,
 ) -> Any:
-    """Return a value with the number in place of each text that stands for one.
-
-    >>> from optipath.values.units import parse_quantity
-    >>> numbers_for("a turn", ["180 deg", 0.5], lambda text: parse_quantity(text, "angle"))
-    array([3.14159265, 0.5       ])
-    """
+    """Return a value with the number in place of each text that stands for one."""
     if isinstance(value, str):
         return _number(what, value, parse, error)
     if not isinstance(value, (list, tuple, np.ndarray, np.generic)):

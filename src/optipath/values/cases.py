@@ -38,10 +38,9 @@ class Case:
     note: str = ""
 
     def __post_init__(self) -> None:
-        arguments = {"values": self.values, "published": self.published}
         faults = [
             f"{name} of a case must be a mapping by names, not {shown(one)}"
-            for name, one in arguments.items()
+            for name, one in (("values", self.values), ("published", self.published))
             if not isinstance(one, Mapping)
         ]
         if not isinstance(self.note, str):
@@ -58,11 +57,7 @@ class Case:
 
 
 def name_faults(name: str) -> list[str]:
-    """Return what is wrong with the name of a case, a sentence; nothing where it can be asked for.
-
-    >>> name_faults("7"), name_faults("all")
-    ([], ["cases.all: 'all' stands for every case; give this one another name"])
-    """
+    """Return what is wrong with the name of a case; nothing where it can be asked for."""
     if name == ALL:
         return [f"cases.{ALL}: '{ALL}' stands for every case; give this one another name"]
     return [] if name.strip() else ['cases."" has no name; give it one']

@@ -64,15 +64,17 @@ class TextColumn(NamedTuple):
     @property
     def texts(self) -> tuple[str, ...]:
         """The cells, numbers with the unit of the heading."""
-        lack = [self.unit and _NUMBER.match(cell) and not unit_of(cell) for cell in self.cells]
-        both = zip(self.cells, lack, strict=True)
-        return tuple([f"{cell} {self.unit}" if lacks else cell for cell, lacks in both])
+        texts = [f"{cell} {self.unit}" if _is_plain(cell) else cell for cell in self.cells]
+        return tuple(texts) if self.unit else self.cells
 
     @property
     def lacks_units(self) -> bool:
         """Whether a number of it has no unit."""
-        are_plain = any(_NUMBER.match(cell) and not unit_of(cell) for cell in self.cells)
-        return are_plain and not self.unit
+        return not self.unit and any(map(_is_plain, self.cells))
+
+
+def _is_plain(cell: str) -> bool:
+    return bool(_NUMBER.match(cell)) and not unit_of(cell)
 
 
 def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[TextColumn]:
@@ -147,7 +149,8 @@ def read_columns(
     if wrong := [shown(one) for one in (*names, unit) if not isinstance(one, str)]:
         raise ValueFault(f"columns and units are given as texts, not as {listed(wrong)}")
     lines = lines_of(file)
-    begins = [0, *[at for at, (_, cells) in enumerate(lines) if at and _names_axis(cells)]]
+    axes = [any(split_heading(cell)[0].lower() in _AXES for cell in cells) for _, cells in lines]
+    begins = [0, *[at for at, names_axis in enumerate(axes) if at and names_axis]]
     tables = [
         _columns(file, lines[begin:end], (), ", ".join(["wavelength (nm)", *names]))
         for begin, end in pairwise([*begins, len(lines)])
@@ -162,19 +165,20 @@ def read_columns(
     result = CsvColumns(file.stem, np.empty(0), {})
     for table in tables:
         number = table[0].header
+        here = [name for name in names if _among(table, name)]
+        if not here and table is not tables[0]:
+            continue
         with collecting(faults):
-            columns = {name: _numbers(table, name) for name in names if _among(table, name)}
-            if columns or table is tables[0]:
-                wavelengths = _wavelengths(table, number, unit)
+            wavelengths = _wavelengths(table, number, unit)
+            columns = {name: _numbers(table, name) for name in here}
             if twice := sorted(columns.keys() & result.columns):
                 raise ValueFault(
                     f"line {number} begins a second table of {listed(twice)}; keep one"
                 )
-            if result.columns and columns and not np.array_equal(wavelengths, result.wavelengths):
+            if result.columns and not np.array_equal(wavelengths, result.wavelengths):
                 raise ValueFault(
                     f"line {number} begins a second table, whose wavelengths are not those of the "
-                    f"first; write all columns into lines of common wavelengths, or each table "
-                    f"into a file"
+                    f"first; write all columns into lines of common wavelengths"
                 )
             result = CsvColumns(file.stem, wavelengths, result.columns | columns)
     if faults:
@@ -204,11 +208,7 @@ _HEAD = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^][]*)\])?")
 
 
 def split_heading(head: str) -> tuple[str, str]:
-    """Return what a column is called, and its unit; ``""`` for none.
-
-    >>> split_heading("delta (deg)"), split_heading("wavelength_nm"), split_heading("n1")
-    (('delta', 'deg'), ('wavelength', 'nm'), ('n1', ''))
-    """
+    """Return what a column is called, and its unit; ``""`` for none."""
     match = _HEAD.fullmatch(head.strip())
     name, unit = (match[1], match[2] or match[3] or "") if match else (head, "")
     before, line, behind = name.rpartition("_")
@@ -216,11 +216,6 @@ def split_heading(head: str) -> tuple[str, str]:
         name, unit = before, behind
     unit = _SPELT.get(unit.strip(), unit.strip())
     return name.strip(), "" if unit == NO_UNIT else unit
-
-
-def _names_axis(cells: Sequence[str]) -> bool:
-    """Tell whether a line names a column of wavelengths."""
-    return any(split_heading(cell)[0].lower() in _AXES for cell in cells)
 
 
 def _among(columns: Sequence[TextColumn], name: str) -> list[TextColumn]:
@@ -343,14 +338,7 @@ is light in nm, 0.1 to 10 in um; tables in eV, THz and 1/cm may well be X-rays o
 
 
 def unit_doubted(metres: Sequence[float], unit: str) -> str:
-    """Return why the unit of a table of wavelengths is most likely another one, if it is.
-
-    >>> print(unit_doubted([400e-6, 500e-6], "um"))  # doctest: +NORMALIZE_WHITESPACE
-    the wavelengths are 400 um .. 500 um, which are most likely nm; give the unit nm, or, where
-    they are meant, each with its unit, such as '400 um'
-    >>> unit_doubted([0.4e-6, 0.5e-6], "um")
-    ''
-    """
+    """Return why the unit of a table of wavelengths is most likely another one, if it is."""
     if not len(metres) or unit not in _DOUBTS:
         return ""
     low, high, meant = _DOUBTS[unit]

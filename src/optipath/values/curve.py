@@ -6,7 +6,6 @@ import math
 import sys
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from functools import cached_property
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
@@ -152,39 +151,25 @@ class Curve(Unchanging, ABC):
         return hash(self.content)
 
 
-@dataclass(frozen=True, eq=False)
 class CurveSum(Curve):
     """Numbers of curves, each times a number, and a number: n_e - n_o of a crystal."""
 
+    def __init__(self, terms: tuple[tuple[float, Curve, int], ...], constant: float = 0.0) -> None:
+        curves = [curve for _, curve, _ in terms]
+        lows, highs = zip(*[curve.span for curve in curves], strict=True)
+        text = "".join([_written(*term) for term in terms]).removeprefix(" + ").strip()
+        vars(self).update(
+            terms=terms,
+            constant=constant,
+            label=f"{text}{f' {constant:+g}' * bool(constant)}",
+            span=(max(lows), min(highs)),
+            beyond=next((curve.beyond for curve in curves if curve.beyond), ""),
+            takes_grid=any(curve.takes_grid for curve in curves),
+            unit=curves[0].unit,
+        )
+
     terms: tuple[tuple[float, Curve, int], ...]
-    constant: float = 0.0
-
-    @cached_property
-    def label(self) -> str:  # type: ignore[override]
-        """What sentences call it: the sum as one writes it."""
-        text = "".join([_written(*term) for term in self.terms]).removeprefix(" + ").strip()
-        return f"{text}{f' {self.constant:+g}' * bool(self.constant)}"
-
-    @property
-    def span(self) -> tuple[float, float]:  # type: ignore[override]
-        """The wavelengths at which all are known."""
-        lows, highs = zip(*[curve.span for _, curve, _ in self.terms], strict=True)
-        return max(lows), min(highs)
-
-    @property
-    def beyond(self) -> str:  # type: ignore[override]
-        """What else to do, as the first curve has it that says so."""
-        return next((curve.beyond for _, curve, _ in self.terms if curve.beyond), "")
-
-    @property
-    def takes_grid(self) -> bool:  # type: ignore[override]
-        """Whether one of the curves does."""
-        return any(curve.takes_grid for _, curve, _ in self.terms)
-
-    @property
-    def unit(self) -> str:  # type: ignore[override]
-        """The unit of the first of them."""
-        return self.terms[0][1].unit
+    constant: float
 
     @property
     def content(self) -> tuple[Hashable, ...]:
@@ -226,14 +211,11 @@ def _written(factor: float, curve: Curve, place: int) -> str:
 def marked_name(curve: Curve, place: int, depends_on: tuple[Any, ...]) -> str:
     """Return a name that nobody can give, and that equal values alone share."""
     keys = [Operand(one).key() for one in depends_on]
-    bound = [_content(p.default) for p in depends_on if isinstance(p, Parameter) and p.bound]
+    known = [p.default for p in depends_on if isinstance(p, Parameter) and p.bound]
+    # What JAX traces is equal to itself alone.
+    bound = [id(number) if is_traced(number) else np.asarray(number).tobytes() for number in known]
     mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=8).hexdigest()
     return f"{curve.parts[place]} of {curve.label} [{mark}]"
-
-
-def _content(number: Any) -> Hashable:
-    """Return what equal numbers share; what JAX traces is equal to itself alone."""
-    return id(number) if is_traced(number) else np.asarray(number).tobytes()
 
 
 _MOST_CHARACTERS = 12
@@ -247,11 +229,7 @@ _ROUNDING = 4.0 * sys.float_info.epsilon
 
 
 def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
-    """Tell which wavelengths, in metres, are within a range, its ends and their rounding included.
-
-    >>> is_within(830 * 1e-9, (300e-9, 830e-9)), 830 * 1e-9 <= 830e-9
-    (True, False)
-    """
+    """Tell which wavelengths are within a range, its ends and their rounding included."""
     low, high = span
     return (wavelength >= low * (1.0 - _ROUNDING)) & (wavelength <= high * (1.0 + _ROUNDING))
 

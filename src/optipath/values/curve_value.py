@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, Self, cast
 import numpy as np
 
 from optipath.errors import ParameterError, ValueFault, shown
-from optipath.kernels.primitives import NUMPY
 from optipath.values.arrays import (
     broadcast_fault,
     changed,
@@ -73,7 +72,7 @@ class CurveValue(Parameter):
 
     def shapes(self, arguments: Mapping[str, Resolved]) -> dict[str, tuple[int, ...]]:
         """Return the shapes of what it is computed of, by name."""
-        return {one.name: np.shape(_number(one, arguments)) for one in self.arguments}
+        return {one.name: np.shape(Operand(one).at(arguments)) for one in self.arguments}
 
     def computed(self, arguments: Mapping[str, Resolved]) -> Resolved:
         """Return its numbers, scale and offset aside."""
@@ -82,20 +81,16 @@ class CurveValue(Parameter):
     def parts(self, arguments: Mapping[str, Resolved]) -> tuple[Any, ...]:
         """Return the numbers of all parts of its curve, of which its own are one."""
         results: tuple[Any, ...]
-        results = self.curve.evaluated(*[_number(one, arguments) for one in self.depends_on])
+        results = self.curve.evaluated(*[Operand(one).at(arguments) for one in self.depends_on])
         return results
 
     def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
         """Return what it is once parameters that it is computed of have values."""
         if not any(one.name in values for one in self.arguments):
             return self
-        depends_on = tuple(
-            [
-                values[one.name].like(one) if getattr(one, "name", None) in values else one
-                for one in self.depends_on
-            ]
-        )
-        return _of(self.curve, self.place, depends_on).like(self)
+        named = [(one, getattr(one, "name", "")) for one in self.depends_on]
+        others = [values[name].like(one) if name in values else one for one, name in named]
+        return _of(self.curve, self.place, tuple(others)).like(self)
 
     @property
     def is_nowhere_0(self) -> bool:
@@ -122,10 +117,8 @@ class CurveValue(Parameter):
         known = _defaults(others)
         for one in others:
             if isinstance(one, Parameter) and one.name not in known:
-                raise ParameterError(
-                    f"{self.spoken} follows from parameter '{one.name}' besides, which has no "
-                    f"value; give the parameter a default"
-                )
+                besides = f"{self.spoken} follows from parameter '{one.name}' besides"
+                raise ParameterError(f"{besides}, which has no value; give it a default")
         where = read_within(self.curve.span, wavelength)
         WavelengthRange.of(self.curve).check("the wavelength", where)
         there = _of(self.curve, self.place, (changed(_THERE, default=where), *others))
@@ -139,26 +132,19 @@ class CurveValue(Parameter):
         """Return a sum with a number, or with what follows from the same wavelength."""
         if not isinstance(other, CurveValue):
             return super()._shifted(other, sign)
+        both = f"{self.spoken} and {other.spoken}"
         if self.depends_on[0] != other.depends_on[0]:
-            raise ParameterError(
-                f"{self.spoken} and {other.spoken} follow from two wavelengths, "
-                f"'{self.depends_on[0].name}' and '{other.depends_on[0].name}'; give both the "
-                "same one"
-            )
+            names = f"'{self.depends_on[0].name}' and '{other.depends_on[0].name}'"
+            raise ParameterError(f"{both} follow from two wavelengths, {names}; give the same one")
         terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
         total = CurveSum(tuple(terms), self.offset + sign * other.offset)
         one, another = dimension_of(self.unit), dimension_of(other.unit)
         if one != another:
-            raise ParameterError(
-                f"{self.spoken} is {with_article(one or 'pure number')}, and {other.spoken} "
-                f"{with_article(another or 'pure number')}; add up what is of one kind"
-            )
+            kinds = " and ".join(with_article(each or "pure number") for each in (one, another))
+            raise ParameterError(f"{both} are {kinds}; add up what is of one kind")
         low, high = total.span
         if not low <= high:
-            raise ParameterError(
-                f"{self.spoken} and {other.spoken} are known at no common wavelength; take curves "
-                f"whose ranges meet"
-            )
+            raise ParameterError(f"{both} are known at no common wavelength; take other curves")
         return cast("Self", _of(total, 0, (*self.depends_on, *other.depends_on[1:])))
 
     def same_specification(self, other: Parameter) -> bool:
@@ -166,11 +152,9 @@ class CurveValue(Parameter):
 
     def __repr__(self) -> str:
         argument = ", ".join([one.name for one in self.arguments])
-        shape = (
-            f"{self.scale:g} * " * (self.scale != 1.0),
-            f" + {self.offset:g}" * bool(self.offset),
-        )
-        return f"<{shape[0]}{shown(self.spoken)[1:-1]}{shape[1]}, by {argument}>"
+        scale = f"{self.scale:g} * " * (self.scale != 1.0)
+        offset = f" + {self.offset:g}" * bool(self.offset)
+        return f"<{scale}{shown(self.spoken)[1:-1]}{offset}, by {argument}>"
 
     def __eq__(self, other: object) -> bool:
         return Parameter.__eq__(self, other)
@@ -190,15 +174,8 @@ def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
 def _of(curve: Curve, place: int, depends_on: tuple[Any, ...]) -> CurveValue:
     parameters = [one for one in depends_on if isinstance(one, Parameter)]
     bound = all(one.bound for one in parameters)
-    made = CurveValue(
-        marked_name(curve, place, depends_on),
-        None,
-        unit=curve.unit,
-        bound=bound,
-        curve=curve,
-        place=place,
-        depends_on=depends_on,
-    )
+    of: dict[str, Any] = {"curve": curve, "place": place, "depends_on": depends_on}
+    made = CurveValue(marked_name(**of), None, unit=curve.unit, bound=bound, **of)
     known = _defaults(parameters)
     if not made.follows(known) or (curve.takes_grid and not bound):
         return made
@@ -209,11 +186,6 @@ def _of(curve: Curve, place: int, depends_on: tuple[Any, ...]) -> CurveValue:
 def _defaults(values: Iterable[Any]) -> dict[str, Resolved]:
     parameters = [one for one in values if isinstance(one, Parameter)]
     return {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
-
-
-def _number(one: Any, arguments: Mapping[str, Resolved]) -> Any:
-    operand = Operand(one)
-    return operand.evaluated(NUMPY, operand.raw(arguments))
 
 
 def check_computed(
@@ -275,7 +247,7 @@ def _number_at(one: Any, bad: Any, known: Mapping[str, Resolved]) -> float | Non
     """Return the first number of one argument that a fault is of; None where it is not known."""
     if isinstance(one, Parameter) and one.name not in known:
         return None
-    number = _number(one, known)
+    number = Operand(one).at(known)
     return None if is_traced(number) else float(np.broadcast_to(number, bad.shape)[bad].flat[0])
 
 

@@ -26,6 +26,7 @@ class Domain:
     complex_parts: ClassVar[tuple[str, ...]] = ()
     of_numbers: ClassVar[str] = "finite"
     masks = False  # Whether light of what is not allowed is NaN, and nothing is refused.
+    shows_in_light = False  # Whether light of wrong arrays is not finite, and tells it itself.
     takes_materials = False  # Whether a `Material` may stand for the number.
 
     name: str
@@ -84,11 +85,7 @@ class Domain:
         return namespace(numbers).isfinite(numbers)
 
     def allows(self, numbers: Any) -> Any:
-        """Return which numbers of an array are allowed, or for which paths; JAX's as well.
-
-        >>> Domain("share", minimum=0.0, maximum=1.0).allows(np.array([0.5, 2.0, np.nan]))
-        array([ True, False, False])
-        """
+        """Return which numbers of an array are allowed, or for which paths; JAX's as well."""
         inside = self.are_numbers(numbers)
         if numbers.dtype.kind == "c":
             return inside & False
@@ -102,11 +99,6 @@ class Domain:
     def unphysical(self) -> Domain:
         """The domain of values as they are measured, or of what amplifies; mostly the same."""
         return self
-
-    @property
-    def shows_in_light(self) -> bool:
-        """Whether wrong arrays of the right shape give non-finite light, and need no check."""
-        return False
 
     @property
     def takes_any(self) -> bool:
@@ -176,11 +168,7 @@ class Domain:
 
 
 def in_unit_of(value: Any, domain: Domain) -> Any:
-    """Return a value; a parameter without a unit gets the usual one of a domain.
-
-    >>> in_unit_of(Parameter("theta"), Domain("angle", "angle")).unit
-    'deg'
-    """
+    """Return a value; a parameter without a unit gets the usual one of a domain."""
     if isinstance(value, Parameter) and not value.unit:
         return changed(value, unit=domain.unit)
     return value
@@ -205,16 +193,15 @@ class Choice(Domain):
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
         del parameter
-        raise ValueFault(f"{owner} cannot be a parameter; choose one word when building")
+        raise ValueFault(f"{owner} cannot be a parameter; give {self.described()} when building")
+
+    def described(self) -> str:
+        return "one word"
 
 
 @dataclass(frozen=True)
 class YesNo(Choice):
-    """True or False; ``true`` or ``false`` in files.
-
-    >>> YesNo("whether it is measured").check("X1.measured", True)
-    True
-    """
+    """True or False; ``true`` or ``false`` in files."""
 
     def quickly_allows(self, value: Any) -> bool:
         return value is True or value is False
@@ -231,10 +218,6 @@ class YesNo(Choice):
             return bool(value)
         cure = Cure("give True or False", "give true or false")
         raise ValueFault(Fault(f"{owner} is {shown(value)}", cure))
-
-    def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        del parameter
-        raise ValueFault(f"{owner} cannot be a parameter; give {self.described()} when building")
 
 
 class FractionDomain(Domain):
@@ -278,11 +261,7 @@ _LARGEST = sys.float_info.max
 
 
 def is_real(number: Any) -> bool:
-    """Tell whether something is a finite real number, and no array of it.
-
-    >>> is_real(2), is_real(True), is_real(np.nan), is_real("2")
-    (True, False, False, False)
-    """
+    """Tell whether something is a finite real number, and no array of it."""
     of_type = isinstance(number, _REAL) and not isinstance(number, bool)
     return of_type and -_LARGEST <= number <= _LARGEST
 
@@ -294,23 +273,14 @@ class WholeNumber(Domain):
         return type(value) is int
 
     def kept(self, value: Any) -> Any:
-        """Return a value that nobody can change.
-
-        >>> WholeNumber("place").kept(2.0)
-        2
-        """
+        """Return a value that nobody can change."""
         stored = super().kept(value)
         return int(stored) if isinstance(stored, float) and stored.is_integer() else stored
 
 
 @dataclass(frozen=True)
 class Refused(Domain):
-    """No value at all.
-
-    >>> Refused("length", why="is missing; give it").check("Rod length", None)
-    Traceback (most recent call last):
-    optipath.errors.ValueFault: Rod length is missing; give it
-    """
+    """No value at all."""
 
     why: str = ""
 
@@ -379,6 +349,13 @@ class PhysicalDomain(Domain):
         return read_only(value, widened=False)
 
 
+_CURE = Cure.of(
+    "give S1^2 + S2^2 + S3^2 <= S0^2, or {} for what is measured as it is".format,
+    "physical=False",
+    "physical = false",
+)
+
+
 @dataclass(frozen=True)
 class StokesDomain(PhysicalDomain):
     """Stokes vectors that light can have; none at all is unpolarised light."""
@@ -394,25 +371,15 @@ class StokesDomain(PhysicalDomain):
         if np.any(negative):
             value = array[..., 0][negative].ravel()[0]
             raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
-        if not self.physical or surely_light(array):
-            return
-        bad = ~can_be_light(array, rounding)
-        if np.any(bad):
-            state = array[bad].reshape(-1, 4)[0].tolist()
-            cure = Cure.of(
-                "give S1^2 + S2^2 + S3^2 <= S0^2, or {} for what is measured as it is".format,
-                "physical=False",
-                "physical = false",
-            )
-            raise ValueFault(Fault(f"{owner} is {state}, polarised by more than 100 %", cure))
+        if self.physical and not surely_light(array):
+            bad = ~can_be_light(array, rounding)
+            if np.any(bad):
+                state = array[bad].reshape(-1, 4)[0].tolist()
+                raise ValueFault(Fault(f"{owner} is {state}, polarised by more than 100 %", _CURE))
 
 
 def surely_light(stokes: npt.NDArray[Any]) -> bool:
-    """Tell quickly, and never wrongly, whether all are light, polarised by 100 % at most.
-
-    >>> surely_light(np.array([[1.0, 0.6, 0.0, 0.8], [2.0, 0.0, 0.0, 0.0]]))
-    True
-    """
+    """Tell quickly, and never wrongly, whether all are light, polarised by 100 % at most."""
     with np.errstate(all="ignore"):
         squares = np.einsum("...i,...i->...", stokes, stokes)
         most = (2.0 + _ROUNDING) * stokes[..., 0] ** 2
@@ -422,11 +389,7 @@ def surely_light(stokes: npt.NDArray[Any]) -> bool:
 
 
 def can_be_light(stokes: Any, rounding: float) -> Any:
-    """Return which Stokes vectors (..., 4) are polarized by 100 % at most.
-
-    >>> can_be_light(np.array([[1.0, 0.6, 0.0, 0.8], [1.0, 1.0, 1.0, 1.0]]), 0.0)
-    array([ True, False])
-    """
+    """Return which Stokes vectors (..., 4) are polarized by 100 % at most."""
     xp = namespace(stokes)
     dark = stokes[..., :1] == 0.0
     shares = abs(stokes[..., 1:]) / xp.where(dark, 1.0, stokes[..., :1])

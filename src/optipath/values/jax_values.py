@@ -11,40 +11,25 @@ from optipath.errors import ParameterError
 
 
 def is_jax(value: Any) -> bool:
-    """Tell whether a value is JAX's, without importing it.
-
-    >>> is_jax(1.0)
-    False
-    """
+    """Tell whether a value is JAX's, without importing it."""
     jax = sys.modules.get("jax")
     return jax is not None and isinstance(value, jax.Array)
 
 
 def is_traced(value: Any) -> bool:
-    """Tell whether a value is one that JAX does not know yet, and so cannot be checked.
-
-    >>> is_traced(1.0)
-    False
-    """
+    """Tell whether a value is one that JAX does not know yet, and so cannot be checked."""
     # As `is_jax`, which it does not call: it is asked of nearly every value.
     jax = sys.modules.get("jax")
     return jax is not None and isinstance(value, jax.Array) and isinstance(value, jax.core.Tracer)
 
 
 def known(value: Any) -> Any:
-    """Return JAX's known numbers as NumPy's array: JAX without x64 would round to float32.
-
-    >>> known(1.0)
-    1.0
-    """
+    """Return JAX's known numbers as NumPy's array: JAX without x64 would round to float32."""
     return np.asarray(value) if is_jax(value) and not is_traced(value) else value
 
 
 def check_known(what: str, value: Any) -> None:
-    """Raise where a value is one that JAX does not know yet.
-
-    >>> check_known("an exponent", 1)
-    """
+    """Raise where a value is one that JAX does not know yet."""
     if is_traced(value):
         raise ParameterError(
             f"{what} takes numbers, not values that JAX traces; do it outside of jit and grad"

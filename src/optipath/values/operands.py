@@ -38,11 +38,7 @@ _COMPARED = 1 << 20
 
 
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
-    """Return a part of numbers (..., *tail), as `Operand` names them.
-
-    >>> part_of(np.array([[1.0, 2.0], [3.0, 4.0]]), 2, (2, 2))
-    array(3.)
-    """
+    """Return a part of numbers (..., *tail), as `Operand` names them."""
     if isinstance(part, int):
         return numbers.reshape(*numbers.shape[: -len(tail)], prod(tail))[..., part]
     if part == "real":
@@ -113,6 +109,10 @@ class Operand:
                 return resolved.present
             value = self.placed(resolved.value)
         return part_of(_doubles(value), self.input_part, self.tail)
+
+    def at(self, arguments: Mapping[str, Resolved] = NOTHING) -> Any:
+        """Return this part of the value, for what is given."""
+        return self.evaluated(NUMPY, self.raw(arguments))
 
     def placed(self, numbers: Any) -> Any:
         """Return numbers for its value, for those of a parameter, but for the sign of that."""
@@ -315,9 +315,6 @@ class Ranges(dict["Hashable", "tuple[float, float]"]):
     """The ranges of quantities, by what `InputKey.quantity` says.
 
     A multiple that is no element's value has the range that follows from that of its parameter.
-
-    >>> Ranges({"f": (0.0, 1.0)})["f", -2.0, 1.0]
-    (-1.0, 1.0)
     """
 
     def __missing__(self, quantity: tuple[str, float, float]) -> tuple[float, float]:
@@ -330,12 +327,7 @@ class Ranges(dict["Hashable", "tuple[float, float]"]):
 def kernel_values(
     factory: Callable[[Primitives], Callable[..., tuple[Any, ...]]], *numbers: Any
 ) -> tuple[Any, ...]:
-    """Return what a kernel makes of real numbers: JAX's where traced, else NumPy's float64.
-
-    >>> from optipath.kernels.fresnel.boundary import phase_index
-    >>> kernel_values(phase_index, 1.5, 0.0, 1.0, 0.0)
-    (array(1.5),)
-    """
+    """Return what a kernel makes of real numbers: JAX's where traced, else NumPy's float64."""
     if any(map(is_traced, numbers)):
         return _traced_values(factory, numbers)
     argument = np.broadcast_arrays(*(np.asarray(number, np.float64) for number in numbers))

@@ -138,15 +138,12 @@ class Parameter:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.isidentifier():
             raise ParameterError(
-                f"parameter name {shown(self.name)} must be letters, digits and underscores, "
-                f"not starting with a digit"
+                f"parameter name {shown(self.name)} must be letters, digits and _, a letter first"
             )
         for field_name, (kind, described) in _KINDS.items():
             if not isinstance(value := getattr(self, field_name), kind):
-                raise ParameterError(
-                    f"{field_name} of parameter '{self.name}' must be {described}, "
-                    f"not {shown(value)}"
-                )
+                what = f"{field_name} of {self.called}"
+                raise ParameterError(f"{what} must be {described}, not {shown(value)}")
         if isinstance(self.unit, str) and not self.unit:
             numbers = [self.default, self.minimum, self.maximum, *self.words.values()]
             vars(self).update(unit=_first_unit(numbers))
@@ -157,19 +154,16 @@ class Parameter:
         self._read_limits_and_words()
         self._read_shape()
         if isinstance(self.default, CosSin):
-            raise ParameterError(
-                f"parameter '{self.name}' cannot keep a cosine and a sine; give them when the "
-                f"plan runs, or give an angle"
-            )
+            raise ParameterError(f"{self.called} cannot keep a cosine and a sine; give an angle")
         if (argument := self.default) is not None:
             limits = self.minimum, self.maximum
             default = read_only(self._as_number(argument), limits, widened=False)
             vars(self).update(default=default, is_material=is_material(argument))
             self.resolve(default)
             if warns:
-                warn_of_degrees(f"parameter '{self.name}'", argument)
+                warn_of_degrees(self.called, argument)
         elif self.bound:
-            raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
+            raise ParameterError(f"{self.called} is bound but has no value; give one")
 
     def _read_limits_and_words(self) -> None:
         """Put numbers in place of texts."""
@@ -184,10 +178,8 @@ class Parameter:
         low, high, *words = numbers
         low, high = self._limit(low), self._limit(high)
         if not low <= high:
-            raise ParameterError(
-                f"parameter '{self.name}' has the range {self.text(low)} .. "
-                f"{self.text(high)}; begin with the lower end"
-            )
+            limits = f"{self.text(low)} .. {self.text(high)}"
+            raise ParameterError(f"{self.called} has the range {limits}; begin with the lower end")
         vars(self).update(minimum=low, maximum=high)
         read = zip(self.words, words, strict=True)
         vars(self).update(words={word: self._word(word, value) for word, value in read})
@@ -195,7 +187,7 @@ class Parameter:
     def _limit(self, value: Any) -> float:
         if type(value) is float:
             return value
-        what = f"the range of parameter '{self.name}'"
+        what = f"the range of {self.called}"
         array = array_of(what, value, ParameterError)
         if array.ndim or array.dtype.kind not in "iuf":
             raise ParameterError(f"{what} must be numbers, not {shown(value)}")
@@ -209,7 +201,7 @@ class Parameter:
         scale, offset = real_number(self.scale), real_number(argument)
         if not scale or offset is None:
             raise ParameterError(
-                f"parameter '{self.name}' can stand as scale * {self.name} + offset with finite "
+                f"{self.called} can stand as scale * {self.name} + offset with finite "
                 f"real numbers and a scale other than 0, not with scale {shown(self.scale)} and "
                 f"offset {shown(self.offset)}"
             )
@@ -218,10 +210,10 @@ class Parameter:
     def _word(self, word: Any, value: Any) -> float:
         if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
             raise ParameterError(
-                f"parameter '{self.name}' cannot have the word {shown(word)}; begin with a letter, "
+                f"{self.called} cannot have the word {shown(word)}; begin with a letter, "
                 f"and keep '{ABSENT}' for an element that is left out"
             )
-        what = f"the word '{word}' of parameter '{self.name}'"
+        what = f"the word '{word}' of {self.called}"
         number = array_of(what, value, ParameterError, (self.minimum, self.maximum))
         if isinstance(value, str) or number.ndim or number.dtype.kind not in "iuf":
             raise ParameterError(f"{what} must be a number, not {shown(value)}")
@@ -233,7 +225,7 @@ class Parameter:
             return self.parse(value)
         if not isinstance(value, (list, tuple)):
             return self._number_of(value)
-        array = as_argument(f"parameter '{self.name}'", value, ParameterError)
+        array = as_argument(self.called, value, ParameterError)
         if array.dtype.kind not in "UO":
             return array
         read = [self._as_number(entry) for entry in array.ravel().tolist()]
@@ -281,14 +273,14 @@ class Parameter:
         if is_traced(raw):
             return Resolved(within(raw, limits), THERE)
         # Arrays of float32 stay so, as some are judged by their precision.
-        array = within(as_argument(f"parameter '{self.name}'", raw, ParameterError), limits)
+        array = within(as_argument(self.called, raw, ParameterError), limits)
         present = np.ones(array.shape, dtype=bool)
         if array.dtype.kind in "USO":
             entries = [self._entry(entry, limits) for entry in array.ravel().tolist()]
             present = np.array([entry is not None for entry in entries], bool).reshape(array.shape)
             array = np.array([0.0 if e is None else e for e in entries]).reshape(array.shape)
         elif array.dtype.kind not in "iufc":
-            raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(raw)}")
+            raise ParameterError(f"{self.called} must be a number, not {shown(raw)}")
         array = array if array.ndim and array.dtype.char in "fF" else doubles(array)
         self._check_range(array)
         return Resolved(array if array.ndim else doubles(array), present)
@@ -302,12 +294,10 @@ class Parameter:
 
     def _angle(self, argument: CosSin) -> Any:
         if dimension_of(self.unit) != "angle":
-            raise ParameterError(
-                f"parameter '{self.name}' is no angle, but a cosine and a sine are given; "
-                f"give a number"
-            )
+            what = f"{self.called} is no angle"
+            raise ParameterError(f"{what}, but a cosine and a sine are given; give a number")
         if not argument.is_traced:
-            argument.check(f"parameter '{self.name}'")
+            argument.check(self.called)
         return argument.angle
 
     def parse(self, text: str, default_unit: str = "") -> Any:
@@ -341,7 +331,7 @@ class Parameter:
         try:
             return self._quantity(text, default_unit)
         except UnitError as error:
-            raise UnitError(f"parameter '{self.name}': {error}") from None
+            raise UnitError(f"{self.called}: {error}") from None
 
     def _quantity(self, text: str, default_unit: str) -> Any:
         return parse_quantity(text, dimension_of(self.unit), default_unit)
@@ -372,9 +362,9 @@ class Parameter:
     def _entry(self, entry: Any, limits: tuple[float, float]) -> Any:
         if not isinstance(entry, str):
             entry = self._number_of(entry)
-            number = array_of(f"parameter '{self.name}'", entry, ParameterError, limits)
+            number = array_of(self.called, entry, ParameterError, limits)
             if number.ndim or number.dtype.kind not in "iufc":
-                wrong = f"parameter '{self.name}' must be a number, not {shown(entry)}"
+                wrong = f"{self.called} must be a number, not {shown(entry)}"
                 raise ParameterError(wrong)
             return number[()]
         value = self.parse(entry)
@@ -390,18 +380,18 @@ class Parameter:
 
     def _check_range(self, array: npt.NDArray[Any]) -> None:
         if array.dtype.kind == "c" and np.isfinite([self.minimum, self.maximum]).any():
-            raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
+            raise ParameterError(f"{self.called} is complex but has a range of reals")
         if not np.any(bad := ~self.allows(array)):
             return
         if not np.isfinite(value := array[bad].ravel()[0]):
             place = first_place(~np.isfinite(array))
-            raise ParameterError(f"parameter '{self.name}' is {value}{place}; give a finite number")
+            raise ParameterError(f"{self.called} is {value}{place}; give a finite number")
         limits = self.minimum, self.maximum
         # Beyond a turn, limits are those of a number of degrees, which the path makes radians.
         of_degrees = any(TURN < abs(end) < math.inf for end in limits)
         unit = "" if of_degrees and dimension_of(self.unit) == "angle" else self.unit
         text, hint = refused(float(value), unit, limits)
-        reason = f"parameter '{self.name}' is {text}{first_place(bad)}, outside its range"
+        reason = f"{self.called} is {text}{first_place(bad)}, outside its range"
         raise ParameterError(Fault(reason, range_cure(format_range(*limits, unit), hint)))
 
     @property
@@ -537,8 +527,8 @@ class Parameter:
         """Return another multiple with another offset, if floats hold these."""
         if scale == 0.0 or not math.isfinite(scale) or not math.isfinite(offset):
             raise ParameterError(
-                f"parameter '{self.name}' would stand as {scale} * {self.name} + {offset}, which "
-                f"floats cannot hold; give numbers nearer to 1"
+                f"{self.called} would stand as {scale} * {self.spoken} + {offset}, which floats "
+                f"cannot hold; give numbers nearer to 1"
             )
         dimension = self.offset_dimension if dimension is None else dimension
         return changed(self, scale=scale, offset=offset, offset_dimension=dimension)
@@ -546,14 +536,12 @@ class Parameter:
     def _refuse(self, done: str, other: Any = None) -> NoReturn:
         if isinstance(other, (complex, np.complexfloating)):
             raise ParameterError(
-                f"{self.called} cannot be {done}; for an index n + ik of which either is "
-                f"a parameter, write op.Material(n, k), and for any other complex number one "
-                f"parameter that is given it whole"
+                f"{self.called} cannot be {done}; for an index n + ik write op.Material(n, k), and "
+                f"for any other complex number one parameter that is given it whole"
             )
         raise ParameterError(
-            f"{self.called} cannot be {done}: it may stand as a multiple with an offset, "
-            f"such as 2 * {self.spoken} + 0.1, and as nothing else; compute other values in NumPy "
-            f"and give them as the parameter, or write an element of your own"
+            f"{self.called} cannot be {done}: it may stand as a multiple with an offset alone, "
+            f"such as 2 * {self.spoken} + 0.1; compute other values in NumPy and give them as it"
         )
 
 
@@ -599,11 +587,7 @@ _CASE = "cas"
 
 
 def unknown_parameter(name: str, known: Iterable[str]) -> str:
-    """Return the sentence for a parameter that there is not.
-
-    >>> unknown_parameter("dtype", ["delta"])
-    "'dtype' is no parameter of the path; write Composer(dtype=...).compose(path)"
-    """
+    """Return the sentence for a parameter that there is not."""
     names = [*known]
     if closest(name, names) is None:
         if name in _OF_A_COMPOSER:
@@ -671,11 +655,7 @@ def _named(other: Any) -> str:
 
 
 def label_of(what: str, name: Any, usual: str) -> str:
-    """Return what sentences call a thing by.
-
-    >>> label_of("a spectrum", "", "a histogram"), label_of("a spectrum", "LED", "a histogram")
-    ('a histogram', 'LED')
-    """
+    """Return what sentences call a thing by."""
     if not isinstance(name, str):
         raise ValueFault(f"the name of {what} is {shown(name)}; give a text")
     return name or usual

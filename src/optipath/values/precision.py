@@ -20,25 +20,16 @@ _BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}
 
 
 def precision(argument: Any) -> np.dtype[Any]:
-    """Return the dtype of a name, or of what NumPy takes for one.
-
-    >>> precision("float32"), precision("f4"), precision(float)
-    (dtype('float32'), dtype('float32'), dtype('float64'))
-    """
+    """Return the dtype of a name, or of what NumPy takes for one."""
     return np.dtype(precision_name(argument))
 
 
 def precision_name(argument: Any) -> str:
-    """Return which of the `DTYPES` a name, a dtype or a type of NumPy or Python is.
-
-    >>> precision_name(np.float32), precision_name("double")
-    ('float32', 'float64')
-    """
+    """Return which of the `DTYPES` a name, a dtype or a type of NumPy or Python is."""
     known = type(argument) is str and argument in DTYPES
     name = argument if known else _BY_CHARACTER.get(_character(argument))
     if name is None:
-        first, second, last = DTYPES
-        cure = f"give '{first}', '{second}' or '{last}'"
+        cure = "give 'float64', 'float32' or 'longdouble'"
         raise ComposerError(f"dtype {shown(argument)} is unknown; {cure}")
     if name == "longdouble" and np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
         raise ComposerError("dtype 'longdouble' is no more than float64 here; use 'float64'")
@@ -59,20 +50,12 @@ def _character(argument: Any) -> str:
 
 
 def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:
-    """Return the precision in which angles are turned into cosines: float64 at least.
-
-    >>> wide(np.dtype("float32"))
-    dtype('float64')
-    """
+    """Return the precision in which angles are turned into cosines: float64 at least."""
     return np.result_type(dtype, np.float64)
 
 
 def coarser(*numbers: Any) -> Any:
-    """Return the dtype of the array of least precision.
-
-    >>> coarser(np.ones(2), np.ones(2, np.float32))
-    dtype('float32')
-    """
+    """Return the dtype of the array of least precision."""
     return min((n.dtype for n in numbers), key=lambda dtype: int(dtype.itemsize))
 
 
@@ -88,11 +71,7 @@ _SUMMED = 2.0**-51
 
 
 def held(numbers: Any, limits: tuple[float, float]) -> tuple[float, float]:
-    """Return limits as the precision of JAX's numbers holds them, neither as 0 nor as infinite.
-
-    >>> held(np.array([0.5], np.float32), (0.0, 1e60))
-    (0.0, 1e+60)
-    """
+    """Return limits as the precision of JAX's numbers holds them, neither as 0 nor as infinite."""
     if isinstance(numbers, (np.ndarray, np.generic)) or numbers.dtype.kind not in "fc":
         return limits
     low, high = limits
@@ -104,9 +83,6 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
     """Return numbers as float64 or complex128, and all else as it is.
 
     Of float32, what equals a limit or a right angle but for its rounding becomes it.
-
-    >>> float(doubles(np.array(np.float32(np.pi / 2.0)))) == np.pi / 2.0
-    True
     """
     if array.dtype.type is np.float64:
         return array
@@ -117,21 +93,13 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
 
 
 def as_doubles(array: Array) -> Array:
-    """Return numbers as doubles; what is larger than any of these is infinite.
-
-    >>> as_doubles(np.array([1.0, 2.0], np.longdouble)).dtype
-    dtype('float64')
-    """
+    """Return numbers as doubles; what is larger than any of these is infinite."""
     with np.errstate(over="ignore"):
         return array.astype(np.float64, copy=False)
 
 
 def within(numbers: Any, limits: tuple[float, float]) -> Any:
-    """Return numbers; of float32, as float64 if any exceeds a limit by its rounding alone.
-
-    >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
-    0.1
-    """
+    """Return numbers; of float32, as float64 if any exceeds a limit by its rounding alone."""
     if numbers.dtype != np.float32:
         return numbers
     for limit, outward in zip(limits, (-1.0, 1.0), strict=True):
@@ -148,20 +116,12 @@ def within(numbers: Any, limits: tuple[float, float]) -> Any:
 
 
 def rounding_of(array: Array) -> float:
-    """Return the rounding of float32; 0 for all other numbers.
-
-    >>> rounding_of(np.ones(3, np.float32)) == 2.0**-23, rounding_of(np.ones(3))
-    (True, 0.0)
-    """
+    """Return the rounding of float32; 0 for all other numbers."""
     return float(np.finfo(np.float32).eps) if array.dtype == np.float32 else 0.0
 
 
 def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float] = ENDLESS) -> Any:
-    """Return a multiple of numbers plus an offset; at a limit where rounding alone is beyond it.
-
-    >>> affine(2.0, 0.5, np.float32([0.25]))
-    array([1.])
-    """
+    """Return a multiple of numbers plus an offset; at a limit where rounding alone is beyond it."""
     if not offset and scale in (1.0, -1.0):
         return numbers if scale == 1.0 else -numbers
     if isinstance(numbers, np.ndarray):
@@ -182,11 +142,7 @@ def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float
 
 
 def real_number(number: Any) -> float | None:
-    """Return a finite real number as a float; None for what is none.
-
-    >>> real_number(2), real_number("2"), real_number(math.inf)
-    (2.0, None, None)
-    """
+    """Return a finite real number as a float; None for what is none."""
     if isinstance(number, np.ndarray) and not number.ndim and number.dtype.kind in "iuf":
         number = number[()]
     if not isinstance(number, Real) or isinstance(number, (bool, np.bool_, np.timedelta64)):

@@ -63,15 +63,7 @@ class _Entry(NamedTuple):
 def read_axis_text(
     text: str, parameter: Parameter, unit: str = "", uses: Iterable[Use] = ()
 ) -> AxisValues | None:
-    """Return the values that one text stands for; None for a text that is given alone.
-
-    >>> from optipath.values.parameters import Parameter
-    >>> delta = Parameter("delta", unit="deg")
-    >>> read_axis_text("0:180:3", delta, "deg").shown.tolist()
-    [0.0, 90.0, 180.0]
-    >>> print(read_axis_text("45 deg", delta))
-    None
-    """
+    """Return the values that one text stands for; None for a text that is given alone."""
     texts = several_texts(parameter, text)
     if texts is None:
         return None
@@ -180,11 +172,7 @@ def _listed(text: str) -> list[str]:
 
 
 def column_file(text: str) -> str | None:
-    """Return the file of which a text means a column; None where it means none.
-
-    >>> column_file("@angles.csv"), column_file("30 deg")
-    ('angles.csv', None)
-    """
+    """Return the file of which a text means a column; None where it means none."""
     text = text.strip()
     return text.removeprefix(_FILE).strip() if text.startswith(_FILE) else None
 
@@ -235,7 +223,7 @@ def texts_of_range(text: str) -> list[str]:
     if count > MOST_WRITTEN:
         raise UnitError(
             f"'{text}' counts {count} values, and a text stands for {MOST_WRITTEN} at most; give "
-            f"them as an array, such as np.linspace(...), in Python"
+            f"fewer, or an array in Python"
         )
     if count == 1:
         return [first]

@@ -87,11 +87,7 @@ _NOTHING = Unit("")
 
 
 def dimension_of(unit: str) -> str:
-    """Return the dimension of a unit, such as ``"angle"``; ``""`` for no unit.
-
-    >>> dimension_of("deg"), dimension_of("1/cm"), dimension_of("")
-    ('angle', 'inverse length', '')
-    """
+    """Return the dimension of a unit, such as ``"angle"``; ``""`` for no unit."""
     if isinstance(unit, str) and unit == "":
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
@@ -106,11 +102,7 @@ def units_of(dimension: str) -> list[str]:
 
 
 def unit_of(text: str) -> str:
-    """Return the unit that a text has, known or not; ``""`` for none, and for what is no quantity.
-
-    >>> unit_of("30 deg"), unit_of("0.5"), unit_of("horizontal")
-    ('deg', '', '')
-    """
+    """Return the unit that a text has, known or not; ``""`` for none."""
     match = _QUANTITY.fullmatch(text.strip()[:_LONGEST])
     return match[2] if match and _LIKE_A_UNIT.fullmatch(match[2]) else ""
 
@@ -161,7 +153,7 @@ def format_quantity(value: complex, unit: str) -> str:
     if isinstance(value, complex):
         return str(value).strip("()")
     if unit == "":
-        return repr(float(value)).removesuffix(".0")
+        return _plainly(value)
     value, of_unit = float(value), UNITS[unit]
     if not math.isfinite(value):
         return f"{value!r} {unit}"
@@ -172,11 +164,7 @@ def format_quantity(value: complex, unit: str) -> str:
 
 
 def with_article(dimension: str) -> str:
-    """Return the name of a dimension for a sentence.
-
-    >>> with_article("length"), with_article("angle per length")
-    ('a length', 'an angle per length')
-    """
+    """Return the name of a dimension for a sentence."""
     return f"{'an' if dimension[:1] in 'aeiou' else 'a'} {dimension}"
 
 
@@ -198,17 +186,14 @@ def _candidates(value: float, unit: Unit) -> list[str]:
     return sorted(results, key=lambda number: _in_base_units(number, unit) != value)
 
 
-def _plainly(number: Decimal) -> str:
+def _plainly(number: Decimal | float) -> str:
     return repr(float(number)).removesuffix(".0")
 
 
 def _pure(text: str) -> float | complex | None:
     """Return the ratio or the complex number that a text stands for; None where it is neither."""
-    return _complex(text) if (ratio := ratio_of(text)) is None else ratio
-
-
-def _complex(text: str) -> complex | None:
-    """Return the complex number that a text stands for; None where it is none."""
+    if (ratio := ratio_of(text)) is not None:
+        return ratio
     number = text[1:-1].strip() if text.startswith("(") and text.endswith(")") else text
     number = _SIGN_BETWEEN.sub(r"\1", number)
     return complex(number) if _COMPLEX.fullmatch(number) else None
@@ -228,11 +213,7 @@ def _mismatch(text: str, unit: str, dimension: str) -> str:
 
 
 def displayed(value: float, unit: str) -> str:
-    """Write a number in base units with another unit, to 15 digits.
-
-    >>> displayed(math.radians(3.0), "arcmin"), format_quantity(math.radians(3.0), "arcmin")
-    ('180 arcmin', '180.00000000000003 arcmin')
-    """
+    """Write a number in base units with another unit, to 15 digits."""
     return f"{in_unit(value, unit):.15g} {unit}".strip()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import reduce
@@ -74,14 +74,10 @@ class Use:
         """Return the shape of numbers for this place, the axes of one value left out."""
         if type(numbers) is float:
             return ()
-        if is_traced(numbers):
-            shape: tuple[int, ...] = numbers.shape
-        else:
-            try:
-                shape = as_argument("", numbers).shape
-            except OptipathError:
-                return ()  # What is no array is a fault of its own.
-        return shape[: len(shape) - len(self.domain.tail)]
+        with suppress(OptipathError):  # What is no array is a fault of its own.
+            shape = numbers.shape if is_traced(numbers) else as_argument("", numbers).shape
+            return tuple(shape[: len(shape) - len(self.domain.tail)])
+        return ()
 
     def known_shape(self) -> tuple[int, ...]:
         """Return the batch shape of a value that is known."""
@@ -120,11 +116,10 @@ class Use:
                 f"{self.domain.described()}; change its unit or where it is used"
             )
         self._check_multiple()
-        default = self.value.default
         if self.value.is_material:
-            self.refuse_material(default)
-        if type(default) is float:
-            # Whether a number is in the range was asked when the parameter was made.
+            self.refuse_material(self.value.default)
+        default = self.value.default
+        if type(default) is float:  # Whether it is in the range was asked when it was made.
             self.check_arguments(default)
         elif default is not None:
             self.check_arguments(*self.value.resolve(default))
@@ -167,17 +162,11 @@ class Use:
         if isinstance(value, CurveValue):
             check_computed(value, self.owner, self.domain, numbers, arguments)
             return
-        if value.is_signed:
-            negative = value.scale < 0.0
-            placed = -numbers if negative else numbers
-            what = f"{self.owner}, as {value.formula}" if negative else self.owner
-            self.domain.check(f"parameter '{value.name}' (at {what})", placed)
-            return
         placed = affine(value.scale, value.offset, numbers, self.domain.interval)
-        if not np.all(present):
+        if not value.is_signed and not np.all(present):
             placed = np.where(present, placed, 0.0)
-        what = f"parameter '{value.name}' (at {self.owner}, as {value.formula})"
-        self.domain.check(what, placed)
+        where = self.owner if placed is numbers else f"{self.owner}, as {value.formula}"
+        self.domain.check(f"parameter '{value.name}' (at {where})", placed)
 
 
 T = TypeVar("T")
@@ -190,13 +179,7 @@ _is_checked_later: ContextVar[bool] = ContextVar("_is_checked_later", default=Fa
 
 @contextmanager
 def checked_later() -> Iterator[None]:
-    """Leave the values of what is made inside to the check of the whole path, which names nodes.
-
-    >>> from optipath.elements.polarizers import Attenuator
-    >>> with checked_later():
-    ...     Attenuator(1.5).faults("filter")
-    ['filter.transmittance is 1.5; give a real fraction within 0 .. 1']
-    """
+    """Leave the values of what is made inside to the check of the whole path, which names nodes."""
     with having(_is_checked_later, value=True):
         yield
 
@@ -243,20 +226,20 @@ def make_sound(
 
 def stored_value(owner: str, value: Any, domain: Domain) -> Any:
     """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit."""
-    if domain.takes_large_angles and not _is_checked_later.get():
-        # Of a parameter with a unit, it has been told when it was made.
-        without = isinstance(value, Parameter) and (value.bound or not value.unit)
-        if without:
-            warn_of_degrees(owner, value.plain_numbers, value.placed)
-        elif not isinstance(value, Parameter):
+    warns = domain.dimension == "angle" and not _is_checked_later.get()
+    if not isinstance(value, Parameter):
+        if warns and domain.takes_large_angles:
             warn_of_degrees(owner, value)
-        if isinstance(value, Parameter) and not value.offset_dimension:
+        return domain.kept(domain.read(owner, value))
+    if warns and domain.takes_large_angles:
+        # Of a parameter with a unit, it has been told when it was made.
+        if value.bound or not value.unit:
+            warn_of_degrees(owner, value.plain_numbers, value.placed)
+        if not value.offset_dimension:
             warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
-    if isinstance(value, Parameter):
-        if not value.unit and domain.dimension == "angle" and not _is_checked_later.get():
-            warn_of_limits(value, value.placed)
-        return in_unit_of(value, domain)
-    return domain.kept(domain.read(owner, value))
+    if warns and not value.unit:
+        warn_of_limits(value, value.placed)
+    return in_unit_of(value, domain)
 
 
 def refuse(faults: list[str]) -> None:
@@ -303,11 +286,7 @@ def _angle_of(value: Any, parameter: Parameter) -> Any:
 
 
 class AxisDomain(Domain):
-    """Angles of an axis across the light; some have names.
-
-    >>> AxisDomain("angle", "angle").parse("antidiagonal")
-    -0.7853981633974483
-    """
+    """Angles of an axis across the light; some have names."""
 
     def parse(self, text: str) -> Any:
         if (word := text.strip()) in AXES:

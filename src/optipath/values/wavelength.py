@@ -26,11 +26,7 @@ LONGEST_FIRST = 0.01
 
 
 def too_long(wavelength: float) -> str:
-    """Say of a number that is too large that it is no wavelength, and what it may have been.
-
-    >>> too_long(188.0).partition(";")[0]
-    '188 metres, which is no wavelength of light'
-    """
+    """Say of a number that is too large that it is no wavelength, and what it may have been."""
     return (
         f"{wavelength:g} metres, which is no wavelength of light; for nanometres write "
         f"'{wavelength:g} nm', and for micrometres '{wavelength:g} um'"
@@ -38,11 +34,7 @@ def too_long(wavelength: float) -> str:
 
 
 class WavelengthDomain(Domain):
-    """Wavelengths in vacuum, above 0 and in metres.
-
-    >>> WAVELENGTH.check("a line", "516 nm")
-    array(5.16e-07)
-    """
+    """Wavelengths in vacuum, above 0 and in metres."""
 
     def parse(self, text: str) -> Any:
         return _read(text, super().parse)
@@ -113,16 +105,12 @@ class Wavelength(Parameter):
             long = (array > max(LONGEST, self.maximum)) & (array < np.inf)
             if np.any(long):
                 first = float(array[long].ravel()[0])
-                raise ParameterError(f"parameter '{self.name}' is {too_long(first)}")
+                raise ParameterError(f"{self.called} is {too_long(first)}")
         super()._check_range(array)
 
 
 def read_within(span: tuple[float, float], argument: Any) -> Any:
-    """Return wavelengths in metres that are within the span of a curve.
-
-    >>> print(read_within((44.3e-9, 2.0), "1.9 m"))
-    1.9
-    """
+    """Return wavelengths in metres that are within the span of a curve."""
     most = max(LONGEST, span[1]) if span[1] < math.inf else LONGEST
     return Wavelength(maximum=most).resolve(argument).value
 
