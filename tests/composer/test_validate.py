@@ -131,7 +131,7 @@ def test_a_parameter_is_one_kind_of_value_of_one_dimension():
     assert "'both' at source.stokes has another shape" in fault
     one, other = op.Parameter("a", default=0.1), op.Parameter("a", default=0.2)
     (fault,) = faults_of(chain([op.Rotator(one), op.Rotator(other)]))
-    assert "'a' at e1.angle differs" in fault
+    assert "'a' at e1.angle (a real angle in deg) differs from that at e0.angle" in fault
     turn = op.Parameter("turn", default=0.3)
     found = chain([op.Polarizer(), op.Rotator(turn), op.Rotator(-turn)]).trace(turn=1.1).stokes
     np.testing.assert_allclose(found, [0.5, 0.5, 0, 0], rtol=1e-15, atol=1e-16)

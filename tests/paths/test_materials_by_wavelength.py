@@ -221,8 +221,11 @@ def lit(*indices):
         (lambda: PANES.bind(k1=paint()), "'k1' .* stands for an index of refraction"),
         (lambda: PANES.bind(n1=paint(), wavelength="1 um"), "1000 nm; .* .. 600 nm, for .* paint"),
         (lambda: PANES.bind(n1=paint(), wavelength=516), "write '516 nm'"),
-        (lambda: lit((OF_N, 2.0)).bind(n=paint()), "k is 2 where the path is built"),
-        (lambda: lit((OF_N, SHARED_K), (1.5, SHARED_K)).bind(n=paint()), "'k' .* interface-2.ind"),
+        (lambda: lit((OF_N, 2.0)).bind(n=paint()), r"k is 2\.0, but .* has a k of its own"),
+        (
+            lambda: lit((OF_N, SHARED_K), (1.5, SHARED_K)).bind(n=paint()),
+            "index.k is k, .* and nowhere else",
+        ),
         (lambda: lit((0.5 * OF_N, SHARED_K)).bind(n=paint()), r"'n' stands as 0.5 \* n"),
         ((PART >> op.Interface(paint(), 0.3) >> op.Detector()).trace, "w.* is open .*, and bound"),
         # Curves of one number.

@@ -12,7 +12,7 @@ import pytest
 
 import optipath as op
 from optipath.cli.command import main
-from optipath.paths.joining import are_alike
+from optipath.paths.editing import are_alike
 from tables import rows
 from wired import read, read_back, wired
 
@@ -138,8 +138,12 @@ def offer(name, **behind):
 @rows(
     "change, told, preset",
     [
-        (drop("front"), r"links meet at 'front', .*'up\.out -> front\.back'", "glass-slab"),
-        (drop("X2"), "not go straight through 'X2'", "npgr026-3d"),
+        (
+            drop("front"),
+            r"'front' cannot be taken out, since several links meet .*'up\.out -> front\.back'",
+            "glass-slab",
+        ),
+        (drop("X2"), "'X2' cannot be taken out, since light does not go straight", "npgr026-3d"),
         (put(behind="X2"), "stands relatively between the vertices", "npgr026-3d"),
         *(
             (*given, "npgr026")

@@ -86,7 +86,9 @@ def test_detectors_nodes_and_places_are_told_by_their_names():
     path.add("camera", op.Detector())
     path.connect("P", "camera", tap=True)
     told = fault(path.bind, place="eye")
-    assert told.startswith("'P' cannot be moved to place='eye': several links meet at 'P'")
+    assert told.startswith(
+        "'P' cannot be moved to place='eye': 'P' cannot be taken out, since several"
+    )
 
 
 def test_words_of_axes_are_taken_and_none_for_another_direction_is_offered():

@@ -147,7 +147,7 @@ def test_a_bare_wavelength_takes_over_default_range_and_help_of_others(several):
 
 def test_wavelengths_that_say_different_things_are_refused():
     red = op.Wavelength(default="590 nm")
-    with pytest.raises(op.PathError, match=r"'wavelength' .* differs from the one of that name"):
+    with pytest.raises(op.PathError, match=r"'wavelength' .* differs from that at"):
         painted(GREEN, red).trace()
     with pytest.raises(op.ParameterError, match=r"700 nm.* for which paint is known"):
         painted(op.Wavelength()).bind(wavelength="700 nm")

@@ -42,8 +42,8 @@ from optipath.values.wavelength import Wavelength
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping, Sequence
 
+    from optipath.paths.binding import PlaceChoice
     from optipath.paths.path_graph import PathGraph
-    from optipath.paths.place_choice import PlaceChoice
     from optipath.values.parameters import Parameter
     from optipath.values.use import Use
 

@@ -42,7 +42,7 @@ def _show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
         check_place(svg)
     path = load_preset(preset)
     case = one_case("show", path, cases)
-    path = path if case is None else preset_of_case(path, preset, case)
+    path = preset_of_case(path, preset, case)
     if svg is not None:
         write(svg, path_picture(path, preset, case).encode())
     _print(PlainConsole(), path, case)

@@ -6,14 +6,12 @@ from dataclasses import replace
 from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.engines.program import Evaluation, Loop, Program, Reading, Result, Step
+from optipath.engines.program import Evaluation, Loop, Program, Result, Step
 from optipath.values.operands import ResultOf
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence
 
-    from optipath.elements.vertex_place import VertexFrame
-    from optipath.light.frame import Frame
     from optipath.values.operands import Operand, Operation
 
 
@@ -29,28 +27,10 @@ class Builder:
         self._evaluation_at: dict[Evaluation, int] = {}
         self._place_of: dict[tuple[int, int], tuple[int, Operation, Operand | None]] = {}
 
-    def program(
-        self,
-        sources: Mapping[str, tuple[int, Frame | VertexFrame]],
-        detectors: Mapping[str, Reading],
-        dumps: Mapping[str, Reading],
-        links: Mapping[str, Reading],
-    ) -> Program:
-        """Return what has been collected."""
+    def program(self, **ends: Any) -> Program:
+        """Return what has been collected, with its sources, detectors, dumps and links."""
         collected = tuple(self.operands), tuple(self.evaluations), tuple(self.steps)
-        ends = sources, detectors, dumps
-        return Program(*collected, *ends, loops=tuple(self.loops), links=links)
-
-    def instead_of(self, old: Program, moved: Callable[[int], int]) -> Program:
-        """Return what has been collected, with the ends of another program."""
-
-        def ends(readings: Mapping[str, Reading]) -> dict[str, Reading]:
-            return {name: replace(r, light=moved(r.light)) for name, r in readings.items()}
-
-        # In this order, since some lights are made when they are asked for.
-        read = ends(old.detectors), ends(old.dumps), ends(old.links)
-        sources = {name: (moved(at), frame) for name, (at, frame) in old.sources.items()}
-        return self.program(sources, *read)
+        return Program(*collected, loops=tuple(self.loops), **ends)
 
     def step(
         self,
@@ -85,17 +65,6 @@ class Builder:
         layered = all(count <= 2 for count in order.values())
         self.loops.append(Loop(tuple(order), len(self.steps), layered))
 
-    def junctions_of(self, old: Program, loop: Loop | None) -> dict[int, int]:
-        """Add the junctions of another program's loop; return the new light of each."""
-        junctions = () if loop is None else sorted(loop.junctions)
-        return {junction: self.junction(old.steps[junction].label) for junction in junctions}
-
-    def close_like(self, old: Program, loop: Loop | None, moved: Callable[[int], int]) -> None:
-        """Close a loop as another program has it, when its steps are there."""
-        if loop is not None:
-            sums = {k: [moved(light) for light in old.steps[k].inputs] for k in loop.junctions}
-            self.close({moved(junction): lights for junction, lights in sums.items()})
-
     def _evaluation(self, operation: Operation, presence: Operand | None = None) -> int:
         key = id(operation), id(presence)
         if key not in self._place_of:
@@ -117,12 +86,10 @@ class Builder:
 
     def _operand(self, operand: Operand) -> int:
         key = operand.key()
-        index = (
-            len(self.operands)
-            if key is None
-            else self._operand_at.setdefault(key, len(self.operands))
-        )
-        if index == len(self.operands):
+        index = new = len(self.operands)
+        if key is not None:
+            index = self._operand_at.setdefault(key, new)
+        if index == new:
             self.operands.append(operand)
         return index
 
@@ -157,17 +124,27 @@ class _Chains:
         self._waiting: dict[int, tuple[int, list[Item]]] = {}
 
     def program(self) -> Program:
-        for lights, loop in self.old.stretches():
+        old, moved = self.old, self._resolved
+        for lights, loop in old.stretches():
             if loop is not None:
                 self._settle_before(loop)
             self._once = loop is None
-            junctions = self.builder.junctions_of(self.old, loop)
-            self._waiting |= {junction: (light, []) for junction, light in junctions.items()}
+            junctions = dict.fromkeys(sorted(loop.junctions) if loop else ())
+            for junction in junctions:
+                self._waiting[junction] = self.builder.junction(old.steps[junction].label), []
             for light in lights:
                 if light not in junctions:
-                    self._waiting[light] = self._of(light, self.old.steps[light])
-            self.builder.close_like(self.old, loop, self._resolved)
-        return self.builder.instead_of(self.old, self._resolved)
+                    self._waiting[light] = self._of(light, old.steps[light])
+            if loop is not None:
+                sums = {k: [moved(light) for light in old.steps[k].inputs] for k in loop.junctions}
+                self.builder.close({moved(junction): lights for junction, lights in sums.items()})
+        # In this order, since some lights are made when they are asked for.
+        ends: dict[str, Any] = {
+            end: {name: replace(r, light=moved(r.light)) for name, r in getattr(old, end).items()}
+            for end in ("detectors", "dumps", "links")
+        }
+        ends["sources"] = {name: (moved(at), frame) for name, (at, frame) in old.sources.items()}
+        return self.builder.program(**ends)
 
     def _settle_before(self, loop: Loop) -> None:
         """Settle what enters a loop, since its steps stand together."""

@@ -1,4 +1,4 @@
-"""Composer: turns a path into a plan."""
+"""Composer: checks a path, and turns it into a plan."""
 
 from __future__ import annotations
 
@@ -10,24 +10,136 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import networkx as nx
 
-from optipath.composer.followed_values import with_followed
 from optipath.composer.lower import lower, refuse_no_jones
-from optipath.composer.media import Media
+from optipath.composer.media import Media, with_followed
 from optipath.composer.path_values import Values
+from optipath.composer.placement import placement_faults
 from optipath.composer.reduce import by_name, reduced, tolerated
-from optipath.composer.validate import refuse_faults
-from optipath.composer.wiring import KEEPABLE, LOOPS, Wiring, link_text
+from optipath.composer.wiring import (
+    KEEPABLE,
+    LOOPS,
+    Wiring,
+    among,
+    cycles,
+    link_text,
+    sharing_faults,
+    tap_faults,
+)
 from optipath.engines.choice import ENGINES, REGISTRY, is_installed
 from optipath.engines.program import MODELS
-from optipath.errors import ComposerError, collecting, shown, unknown
+from optipath.errors import ComposerError, Cure, Fault, PathError, collecting, shown, unknown
 from optipath.kernels.catalog import METHODS
 from optipath.plan.plan import Plan
+from optipath.values.operands import Operand
 from optipath.values.precision import precision_name, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from optipath.composer.wiring import Ways
     from optipath.engines.program import Program, Reduction, Tolerance
+
+
+def checked(
+    values: Values, loops: str | None = None, keep: str = KEEPABLE[0]
+) -> tuple[Values, Wiring, Media]:
+    """Return the values, wiring and media of a path, or raise with all that is wrong with it."""
+    graph, faults = with_followed(values.graph)
+    values = values if graph is values.graph else Values(graph)
+    wiring = Wiring(graph, loops, keep)
+    media = Media(wiring)
+    # In a cycle by mistake, light meets media and misses ends in consequence.
+    cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring.untapped))
+    faults += [*values.faults, *placement_faults(wiring), *([] if cyclic else media.faults())]
+    faults += [*_feeding_faults(wiring), *sharing_faults(wiring), *tap_faults(wiring)]
+    faults += [*_dark_link_faults(wiring), *cyclic, *_missing_end_faults(wiring)]
+    faults += [] if faults else _own_faults(wiring)
+    if wiring.starts and wiring.ends and not cyclic:
+        faults += _reach_faults(wiring)
+    if faults:
+        raise PathError(*faults)
+    for element in wiring.elements.values():
+        vars(element)["_is_sound"] = True
+    return values, wiring, media
+
+
+def _own_faults(wiring: Wiring) -> Iterator[str]:
+    for each in wiring.own_ways():
+        if each.are_known():
+            yield from (fault for _, fault in each.faults(Operand.numbers))
+
+
+def _missing_end_faults(wiring: Wiring) -> Iterator[str]:
+    detects = any(element.detects for element in wiring.elements.values())
+    for kind, is_there in (("source", bool(wiring.starts)), ("detector", detects)):
+        if not is_there:
+            table = f'[elements.{kind}] with kind = "{kind}"'
+            cure = Cure.of("add one, such as {}".format, f"{kind.title()}()", table)
+            yield Fault(f"the path has no {kind}", cure)
+
+
+def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
+    for link in wiring.dark_links:
+        element, leaves = wiring.elements[link[0]], link[2][0]
+        kind = element.kind or type(element).__name__
+        yield (
+            f"link '{link_text(link)}' carries no light: {kind} names '{leaves}', but gives no "
+            f"light there; remove the link"
+        )
+
+
+def _feeding_faults(wiring: Wiring) -> Iterator[str]:
+    for (name, port), links in wiring.links_to.items():
+        element = wiring.elements[name]
+        if len(links) > 1 and not element.merges:
+            feeders = " and ".join(f"'{start}.{leaves}'" for start, _, (leaves, _) in links)
+            kind = element.kind or type(element).__name__
+            yield (
+                f"port '{name}.{port}' is fed by {feeders}, but {kind} does not merge light; "
+                f"put a Combiner before it"
+            )
+
+
+def _reach_faults(wiring: Wiring) -> Iterator[str]:
+    """Yield where a link is missing, and not what is cut off in consequence."""
+    ports = {
+        name: [(name, port) for port in (*element.inputs, *element.outputs)]
+        for name, element in wiring.elements.items()
+    }
+    dark = {name for name, each in ports.items() if wiring.lit.isdisjoint(each)}
+    missing = {name for name, each in ports.items() if wiring.useful.isdisjoint(each)}
+    for name in _firsts(wiring.graph.subgraph(dark)):
+        entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
+        yield f"node '{name}' is reached by no source; link one to {entries}"
+    for name in _firsts(wiring.graph.subgraph(missing - dark), backwards=True):
+        exits = " or ".join(f"'{name}.{port}'" for port in wiring.elements[name].outputs)
+        yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
+
+
+def _firsts(graph: nx.MultiDiGraph, *, backwards: bool = False) -> list[str]:
+    """Return the nodes that no other leads to; of nodes in a circle, one."""
+    if not graph:
+        return []
+    parts = nx.condensation(graph.reverse() if backwards else graph)
+    return [min(parts.nodes[n]["members"]) for n, degree in parts.in_degree if not degree]
+
+
+def _loop_faults(ports: Ways) -> Iterator[str]:
+    for together in cycles(ports):
+        start = min(together)
+        inside = nx.DiGraph(among(ports, together))
+        back = min(inside.predecessors(start))
+        route = [name for name, _ in nx.shortest_path(inside, start, back)]
+        names = [name for i, name in enumerate(route) if i == 0 or route[i - 1] != name]
+        closed = names if len(names) > 1 and names[0] == names[-1] else [*names, names[0]]
+        yield Fault(
+            f"light goes round in a cycle: {' -> '.join(closed)}",
+            Cure.of(
+                "open it by removing a link, or sum over all rounds with {}".format,
+                "loops='sum'",
+                'loops = "sum" above all tables',
+            ),
+        )
 
 
 CHOICES = {
@@ -170,11 +282,7 @@ class Composer:
             return self._plan(path if isinstance(path, Values) else Values(graph))
 
     def _plan(self, values: Values) -> Plan:
-        graph, unfollowed = with_followed(values.graph)
-        values = values if graph is values.graph else Values(graph)
-        wiring = Wiring(graph, self.loops, self.keep)
-        media = Media(wiring)
-        refuse_faults(values, wiring, media, unfollowed)
+        values, wiring, media = checked(values, self.loops, self.keep)
         whole = lower(wiring, self.method)
         if self.composing == "jones":
             refuse_no_jones(whole)

@@ -17,6 +17,8 @@ from optipath.values.operands import Operand, Operation, ResultOf, operand_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
+    from collections.abc import Container
+
     from optipath.composer.wiring import Link, Port, Stretch, Wiring
     from optipath.elements.coupling import Coupling
     from optipath.elements.vertex_place import VertexFrame
@@ -70,23 +72,18 @@ class _Lowering:
 
     def program(self) -> Program:
         """Return the steps that have been added, and where their light ends."""
-        detectors: dict[str, Reading] = {}
-        dumps: dict[str, Reading] = {}
+        ends: dict[bool, dict[str, Reading]] = {True: {}, False: {}}
         for name, port in self.wiring.ends:
-            element = self.wiring.elements[name]
-            reads = getattr(element, "reads", "stokes")
-            stored = detectors if element.detects else dumps
-            light, frame = self._read_of(name, port), self._reading_frame(name, port)
-            stored[name] = Reading(light, frame, _COMPONENTS[reads])
-        return self.builder.program(self.sources, detectors, dumps, self._links())
-
-    def _read_of(self, name: str, port: str) -> int:
-        """Return the light that ends somewhere, as far as what stands there responds to it."""
-        light = self.lights[name, port]
-        response = getattr(self.wiring.elements[name], "response", None)
-        if response is None:
-            return light
-        return self._step(f"{name}.response", (light,), Operation(RESPONSE, (response,)), None)
+            element, light = self.wiring.elements[name], self.lights[name, port]
+            response = getattr(element, "response", None)
+            if response is not None:
+                light = self._step(f"{name}.response", (light,), Operation(RESPONSE, (response,)))
+            components = _COMPONENTS[getattr(element, "reads", "stokes")]
+            frame = self._reading_frame(name, port)
+            ends[element.detects][name] = Reading(light, frame, components)
+        return self.builder.program(
+            sources=self.sources, detectors=ends[True], dumps=ends[False], links=self._links()
+        )
 
     def _links(self) -> dict[str, Reading]:
         """Return the light of every link and outlet, if all is to be kept."""
@@ -105,57 +102,45 @@ class _Lowering:
 
     def add(self, stretch: Stretch) -> None:
         """Add the steps that make the light at the ports of a stretch."""
-        if not stretch.junctions:
-            for port in stretch.ports:
-                self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
-            return
         outside = {junction: self._arriving(junction) for junction in stretch.junctions}
-        for junction in stretch.junctions:
+        for junction in outside:
             self.lights[junction] = self.builder.junction(".".join(junction))
         # The junctions come first.
-        for port in stretch.ports[len(stretch.junctions) :]:
+        for port in stretch.ports[len(outside) :]:
             self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
-        members = set(stretch.ports)
-        inside = {junction: self._arriving(junction, members) for junction in stretch.junctions}
-        self.builder.close(
-            {
-                self.lights[junction]: [*outside[junction], *inside[junction]]
-                for junction in stretch.junctions
-            }
-        )
+        if outside:
+            within = set(stretch.ports)
+            self.builder.close(
+                {
+                    self.lights[junction]: [*lights, *self._arriving(junction, within)]
+                    for junction, lights in outside.items()
+                }
+            )
 
     def _arriving(self, port: Port, within: set[Port] | None = None) -> list[int]:
         """Return the lights that add up at a port, those from ports within some alone."""
         name, way = port
+        lit: Container[Port] = self.lights if within is None else within
         if way in self.wiring.elements[name].inputs:
             links = self.wiring.links_to[port]
-            starts = [(link[0], link[2][0]) for link in links]
-            pairs = zip(links, starts, strict=True)
-            return [self._along(link) for link, start in pairs if self._is_there(start, within)]
+            return [self._along(link) for link in links if (link[0], link[2][0]) in lit]
         return [
             self._pass(name, coupling)
             for coupling in self.wiring.couplings[name]
-            if coupling.leaves == way and self._is_lit(name, coupling, within)
+            if coupling.leaves == way
+            and (within is None if coupling.enters is None else (name, coupling.enters) in lit)
         ]
 
     def _along(self, link: Link) -> int:
         """Return the light of a link in the frame that it enters."""
         start, _, (leaves, _) = link
         light, turn = self.lights[start, leaves], alignment(self.wiring, link)
-        return light if turn is None else self._step(link_text(link), (light,), turn, None)
-
-    def _is_there(self, port: Port, within: set[Port] | None) -> bool:
-        return port in self.lights and (within is None or port in within)
-
-    def _is_lit(self, name: str, coupling: Coupling, within: set[Port] | None) -> bool:
-        if coupling.enters is None:
-            return within is None
-        return self._is_there((name, coupling.enters), within)
+        return light if turn is None else self._step(link_text(link), (light,), turn)
 
     def _pass(self, name: str, coupling: Coupling) -> int:
         label = f"{name}.{coupling.leaves}"
         if coupling.enters is None:
-            light = self._step(label, (), coupling.operations[0], None, port=True)
+            light = self._step(label, (), coupling.operations[0], port=True)
             self.sources[name] = (light, self._frame_behind(name, coupling.leaves))
             return light
         light = self.lights[name, coupling.enters]
@@ -173,11 +158,10 @@ class _Lowering:
         label: str,
         inputs: tuple[int, ...],
         operation: Operation,
-        presence: Operand | None,
+        presence: Operand | None = None,
         **about: Any,
     ) -> int:
-        operation = self._lowered(operation)
-        return self.builder.step(label, inputs, operation, presence, **about)
+        return self.builder.step(label, inputs, self._lowered(operation), presence, **about)
 
     def _lowered(self, operation: Operation) -> Operation:
         """Return an operation by the method, with operands and results of such as arguments."""
@@ -199,17 +183,14 @@ class _Lowering:
         return result or _UNIT
 
     def _reading_frame(self, name: str, port: str) -> Frame | VertexFrame:
-        own = frame_at(self.wiring, name, port)
-        if own is not None:
-            return own
         links = self.wiring.links_to[name, port]
-        arriving = [frame_at(self.wiring, start, leaves) for start, _, (leaves, _) in links]
-        placed = next((frame for frame in arriving if frame is not None), None)
-        result = placed or vertex_frame(self.wiring, name, port)
+        places = [(name, port), *((start, leaves) for start, _, (leaves, _) in links)]
+        placed = (frame_at(self.wiring, *place) for place in places)
+        own = next((frame for frame in placed if frame is not None), None)
+        result = own or vertex_frame(self.wiring, name, port)
         if result or len(links) > 1 or alignment(self.wiring, links[0]) is not None:
             return result or _UNIT
-        start, _, (leaves, _) = links[0]
-        return self._frame_behind(start, leaves)
+        return self._frame_behind(*places[1])
 
 
 def _presence(operations: tuple[Operation, ...]) -> Operand | None:

@@ -1,4 +1,4 @@
-"""Media: what must agree between boundaries: medium, turn, Snell's law."""
+"""Media: what boundaries take over from others (`FOLLOWS`), and what must agree between them."""
 
 from __future__ import annotations
 
@@ -11,22 +11,26 @@ import numpy as np
 
 from optipath.composer.meetings import TURNED, Meetings, OnePlane, keys_of, turn_text, way_text
 from optipath.composer.path_values import FOLLOWING
+from optipath.composer.wiring import Wiring
 from optipath.elements.boundary import BoundaryElement, world_angles
-from optipath.elements.boundary_media import arriving_waves
+from optipath.elements.boundary_media import MediaOfBoundary, arriving_waves
 from optipath.errors import Cure, Fault
 from optipath.kernels.fresnel.boundary import phase_index
 from optipath.kernels.primitives import of_module
 from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
 from optipath.values.agreement import Agreement, first_faults, is_single, text_of
+from optipath.values.arrays import read_only
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator
+    from collections.abc import Collection, Iterator
+
+    import networkx as nx
 
     from optipath.composer.meetings import Meeting
-    from optipath.composer.wiring import Port, Wiring
+    from optipath.composer.wiring import Port
     from optipath.elements.boundary import WorldAngle
 
 
@@ -55,21 +59,25 @@ class Media:
 
     @property
     def _media(self) -> tuple[SameMedium, ...]:
-        results = []
-        for meeting in _once(self.meetings.all):
-            leaves, enters = meeting.leaves, meeting.enters
-            first, second = self._medium(leaves), self._medium(enters)
-            element: Any = self.elements[enters[0]]
-            absorbs = () if _are_one(first, second) else _absorptions(first, second, element)
+        results: dict[Any, SameMedium | None] = {}
+        for meeting in self.meetings.all:
+            if meeting.sides in results:
+                continue
+            (start, leaves), (end, enters) = meeting.leaves, meeting.enters
+            element: Any = self.elements[end]
+            first, second = self._medium(meeting.leaves), element.medium_at(enters)
+            in_front, results[meeting.sides] = enters == "in", None
+            absorbs = _absorptions(first, second, element)
             if absorbs or not are_same(first, second):
-                front, behind = element.media_fields
-                field = behind if enters[1] == "back" else front
-                operands = index_of(first), index_of(second), *absorbs
-                measures = enters[1] == "in" and self._measures_in_front(enters)
-                ports = ".".join(leaves), ".".join(enters)
-                follows = enters[1] == "in" and self._follows(enters[0], "outside")
-                results.append(SameMedium(operands, *ports, field, measures, follows))
-        return tuple(results)
+                results[meeting.sides] = SameMedium(
+                    (index_of(first), index_of(second), *absorbs),
+                    f"{start}.{leaves}",
+                    f"{end}.{enters}",
+                    element.media_fields[not in_front],
+                    measures=in_front and self._measures_in_front(meeting.enters),
+                    follows=in_front and self._follows(end, "outside"),
+                )
+        return tuple(filter(None, results.values()))
 
     @property
     def _angles(self) -> tuple[SnellsLaw, ...]:
@@ -125,11 +133,9 @@ class Media:
     @property
     def _in_space(self) -> Iterator[WorldAngle]:
         """What frames in the world say of angles; what is known of it is told with the frames."""
-        for name, element in self.elements.items():
-            if isinstance(element, BoundaryElement):
-                yield from world_angles(
-                    name, element, self.meetings.wiring.graph.nodes[name]["frames"]
-                )
+        for name, frames in self.meetings.wiring.graph.nodes(data="frames"):
+            if frames and isinstance(element := self.elements[name], BoundaryElement):
+                yield from world_angles(name, element, frames)
 
     @property
     def _within(self) -> Iterator[Agreement]:
@@ -174,15 +180,6 @@ def _wedge_fault(meeting: Meeting) -> str:
     )
 
 
-def _once(meetings: Iterable[Meeting]) -> Iterator[Meeting]:
-    """Yield the first meeting of each two sides."""
-    seen = set()
-    for meeting in meetings:
-        if meeting.sides not in seen:
-            seen.add(meeting.sides)
-            yield meeting
-
-
 def index_of(value: Any) -> Operand:
     """Return n of a medium as an operand."""
     return Operand(value.n if isinstance(value, Material) else value, "real")
@@ -206,19 +203,14 @@ def parts_of(index: Any) -> tuple[Operand, Operand]:
 
 def _absorptions(first: Any, second: Any, element: Any) -> tuple[Operand, ...]:
     """Return what is looked at of k: that before, or of both sides where light may come from it."""
+    if first is second or first is FOLLOWS or second is FOLLOWS:
+        return ()
     before, behind = absorption_of(first), absorption_of(second)
+    if before is behind is None or (isinstance(first, Parameter) and first == second):
+        return ()
     if not element.lit_from_absorbing:
         return () if before is None else (before,)
-    if before is None and behind is None:
-        return ()
     return before or Operand(0.0), behind or Operand(0.0)
-
-
-def _are_one(first: Any, second: Any) -> bool:
-    """Tell whether two media are one value, with all that is asked of either."""
-    if first is second or first is FOLLOWS or second is FOLLOWS:
-        return True
-    return isinstance(first, Parameter) and first == second
 
 
 def are_same(first: Any, second: Any) -> bool:
@@ -231,7 +223,7 @@ def are_same(first: Any, second: Any) -> bool:
     return None not in keys and keys == others
 
 
-_ROUNDING, _SINGLE_ROUNDING = 1e-9, 2.0**-23
+_OF_INDEX, _OF_SINGLE_INDEX = 1e-9, 2.0**-23
 """How far apart two indices may be, as a share of them."""
 
 
@@ -257,7 +249,7 @@ class SameMedium(Agreement):
     def fits(self, xp: Any, *numbers: Any) -> Any:
         n1, n2, *k = numbers
         single = is_single(xp, n1) | is_single(xp, n2)
-        rounding = xp.where(single, _SINGLE_ROUNDING, _ROUNDING)
+        rounding = xp.where(single, _OF_SINGLE_INDEX, _OF_INDEX)
         differs = abs(n1 - n2) > rounding * xp.maximum(n1, n2)
         if len(k) == 1:
             return ~(differs | (k[0] != 0.0))
@@ -269,29 +261,30 @@ class SameMedium(Agreement):
         before, behind, *k = (text_of(o, n) for o, n in zip(self.operands, numbers, strict=True))
         name, _, port = self.leaves.rpartition(".")
         side = "behind" if port == "transmitted" else "in front of"
+        where = f"{side} '{name}' (by '{self.leaves}')"
         if len(k) == 1 and numbers[2]:
             return (
-                f"'{self.enters}' is lit from a medium that absorbs, with k = {k[0]} {side} "
-                f"'{name}' (by '{self.leaves}'); give '{name}' an index without k there, and link "
-                f"a Medium between, which absorbs on the way"
+                f"'{self.enters}' is lit from a medium that absorbs, with k = {k[0]} {where}; give "
+                f"'{name}' an index without k there, and link a Medium between, which absorbs on "
+                f"the way"
             )
         before = _called(before)
         if any(numbers[2:]):
             before, behind = f"{before} and k = {k[0]}", f"{behind} with k = {k[1]}"
-        is_lit = f"'{self.enters}' is lit from {before} {side} '{name}' (by '{self.leaves}')"
+        is_lit = f"'{self.enters}' is lit from {before} {where}"
         if self.follows:
             return (
                 f"{is_lit}, but has taken its {self.field} over (FOLLOWS) from other light, in "
                 f"{_called(behind)}; give each light a face of its own"
             )
-        reason = f"{is_lit}, but its {self.field} is {behind}"
         is_open = isinstance(self.operands[1].value, Parameter) or 0 in varying
-        same = "" if is_open or any(numbers[2:3]) else f"{self.field} = {numbers[0]:.12g}"
+        cures = [] if is_open or any(numbers[2:3]) else [f"{self.field} = {numbers[0]:.12g}"]
         if self.enters.endswith(".back"):
-            return Fault(reason, f"give {same or f'the same for {self.field} as there'}")
-        same += ", or " if same else ""
-        ways = (f"give {same}{way} for {self.field}" for way in ("op.FOLLOWS", FOLLOWS.in_file))
-        return Fault(reason, Cure(*ways))
+            ways = [f"give {[*cures, f'the same for {self.field} as there'][0]}"]
+        else:
+            follows = ("op.FOLLOWS", FOLLOWS.in_file)
+            ways = [f"give {', or '.join([*cures, way])} for {self.field}" for way in follows]
+        return Fault(f"{is_lit}, but its {self.field} is {behind}", Cure(*ways))
 
 
 def _called(number: str) -> str:
@@ -398,25 +391,20 @@ class SnellsLaw(Agreement):
         if turns:
             turned = turn_text(self.operands[6:], turns)
             argument += f"; their planes of incidence are one where azimuths come to {turned}"
+        enters = f"light of '{self.leaves}' enters '{self.enters}', but"
+        differ = f"n sin(incidence) is {sines} ({argument})"
         if self.follows:
             return (
-                f"light of '{self.leaves}' enters '{self.enters}', but '{own}' has taken its "
-                f"incidence over (FOLLOWS) from other light: n sin(incidence) is {sines} "
-                f"({argument}); give each light a face of its own"
+                f"{enters} '{own}' has taken its incidence over (FOLLOWS) from other light: "
+                f"{differ}; give each light a face of its own"
             )
-        whys = ("light goes to and fro between them, so they are parallel",) * 2
-        if self.may_be_shown:
-            why = "faces behind one that refracts are parallel, unless they say parallel"
-            whys = f"{why}=False", f"{why} = false"
-        cures = [
-            f"give '{own}' an incidence of {follows} ({why})"
-            for follows, why in zip(("op.FOLLOWS", FOLLOWS.in_file), whys, strict=True)
-        ]
-        return Fault(
-            f"light of '{self.leaves}' enters '{self.enters}', but n sin(incidence) is {sines} "
-            f"({argument})",
-            Cure(*cures),
-        )
+        cures = []
+        for follows, no in (("op.FOLLOWS", "=False"), (FOLLOWS.in_file, " = false")):
+            why = "light goes to and fro between them, so they are parallel"
+            if self.may_be_shown:
+                why = f"faces behind one that refracts are parallel, unless they say parallel{no}"
+            cures.append(f"give '{own}' an incidence of {follows} ({why})")
+        return Fault(f"{enters} {differ}", Cure(*cures))
 
 
 def _index(xp: Any, angle: Any, n: Any, k: Any) -> Any:
@@ -424,3 +412,146 @@ def _index(xp: Any, angle: Any, n: Any, k: Any) -> Any:
     with np.errstate(all="ignore"):
         (index,) = phase_index(of_module(xp))(n, k, xp.cos(angle), xp.sin(angle))
     return xp.where(k > 0.0, index, n)
+
+
+def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
+    """Return a graph of elements in which boundaries have what they take over from others.
+
+    The medium in front is that of the boundary whose light enters at ``in``; the incidence is that
+    of a parallel boundary before, measured in the same medium.
+    """
+    elements = dict(graph.nodes(data="element"))
+    names = [
+        name for name, e in elements.items() if isinstance(e, MediaOfBoundary) and e.followed()
+    ]
+    if not names:
+        return graph, []
+    taking = _Taking(elements, names, Meetings(Wiring(graph)))
+    faults = {name: [*taking.faults(name)] for name in names}
+    result = graph.copy()
+    result.graph[FOLLOWING] = {}
+    for name in names:
+        fields = elements[name].followed()
+        # An incidence comes with the medium in which it is measured.
+        result.graph[FOLLOWING][name] = (*fields, *["incidence_in"] * ("incidence" in fields))
+        if not faults[name]:
+            result.nodes[name]["element"] = taking.elements[name]
+    messages = [fault for several in faults.values() for fault in several]
+    messages = messages or [
+        f"'{name}' takes over (FOLLOWS) what the boundaries before it take over, too; give it at "
+        f"one of them"
+        for name in names
+        if taking.elements[name].followed()
+    ]
+    return result, messages
+
+
+class _Taking:
+    """Gives values on from boundary to boundary, as soon as they are there."""
+
+    def __init__(self, elements: dict[str, Any], names: list[str], meetings: Meetings) -> None:
+        self.given, self.elements = elements, dict(elements)
+        self.fronts = _by_end(m for m in meetings.all if m.enters[1] == "in")
+        self.layers = _by_end(meetings.in_layers)
+        self.in_space = _by_end(meetings.in_space)
+        behind: dict[str, set[str]] = {}
+        for name, several in [*self.fronts.items(), *self.layers.items()]:
+            for meeting in several:
+                behind.setdefault(meeting.leaves[0], set()).add(name)
+        waiting = names[::-1]
+        while waiting:
+            name = waiting.pop()
+            if self._take(name):
+                waiting += sorted(behind.get(name, ()), reverse=True)
+
+    def _take(self, name: str) -> bool:
+        """Take over what is there for an element; tell whether anything was."""
+        element = self.elements[name]
+        taken: dict[str, Any] = {}
+        for field in element.followed():
+            if field == "outside":
+                media = self._media(name)
+                if not element.lit_from_absorbing:
+                    media = list(map(_real, media))
+                taken |= dict(zip(["outside"], media, strict=False))
+            elif _may_measure(element) and (pairs := self._angles(name)):
+                taken |= dict(zip(["incidence", "incidence_in"], pairs[0], strict=True))
+        if taken:
+            self.elements[name] = element.taking_over(**taken)
+        return bool(taken)
+
+    def _media(self, name: str) -> list[Any]:
+        """Return the media in which light comes to the front of an element."""
+        ports = [meeting.leaves for meeting in self.fronts.get(name, ())]
+        media = [self.elements[node].medium_at(port) for node, port in ports]
+        return [_real_if_clear(index) for index in media if index is not FOLLOWS]
+
+    def _angles(self, name: str) -> list[tuple[Any, Any]]:
+        """Return the incidence at parallel boundaries before it, each with its medium."""
+        pairs = [self.elements[m.leaves[0]].measured for m in self.layers.get(name, ())]
+        return [(a, n) for a, n in pairs if a is not FOLLOWS and n is not FOLLOWS]
+
+    def faults(self, name: str) -> Iterator[str]:
+        """Yield what an element could not take over, a sentence each."""
+        element = self.elements[name]
+        missing = element.followed()
+        port, field = f"'{name}.in'", element.media_fields[0]
+        takes = f"'{name}' takes its {field} over (FOLLOWS), but"
+        medium = element.medium_at("in")
+        if "outside" in missing:
+            if not self.fronts.get(name):
+                yield (
+                    f"{takes} no boundary before it sends light to {port}; give the index of the "
+                    f"medium in front"
+                )
+        elif "outside" in self.given[name].followed():
+            k = None if element.lit_from_absorbing else absorption_of(medium)
+            if k is not None and k.known and not k.traced and np.any(k.numbers()):
+                yield (
+                    f"{takes} the medium before {port} absorbs; give that an index without k, and "
+                    f"link a Medium between, which absorbs on the way"
+                )
+            elif any(_differ(index, medium) for index in self._media(name)):
+                yield f"{takes} light of several media comes to {port}; give each a face of its own"
+        if "incidence" in missing and not (_may_measure(element) and self.layers.get(name)):
+            why = "no parallel boundary before it sends it light that it has refracted"
+            cure = "give the angle"
+            if not _may_measure(element):
+                why = "has an incidence_in of its own, which comes with it"
+                cure = "leave that out"
+            elif name in self.in_space:
+                why = "its world frames say how it stands to what is before it"
+            yield f"'{name}' takes its incidence over (FOLLOWS), but {why}; {cure}"
+
+
+def _by_end(meetings: Any) -> dict[str, list[Meeting]]:
+    results: dict[str, list[Meeting]] = {}
+    for meeting in meetings:
+        results.setdefault(meeting.enters[0], []).append(meeting)
+    return results
+
+
+def _may_measure(element: Any) -> bool:
+    return element.incidence_in is None
+
+
+def _real(index: Any) -> Any:
+    """Return an index without absorption as a real number; open ones are compared later."""
+    k = absorption_of(index) if isinstance(index, Material) else None
+    if k is not None and (not k.known or k.traced):
+        return Material(index.n)
+    return index
+
+
+def _real_if_clear(index: Any) -> Any:
+    """Return an index of complex numbers without absorption as a real one; any other as it is."""
+    if isinstance(index, complex) or (isinstance(index, np.ndarray) and index.dtype.kind == "c"):
+        return index if np.any(index.imag) else read_only(index.real)
+    return index
+
+
+def _differ(first: Any, second: Any) -> bool:
+    """Tell whether two indices are known to be of different media."""
+    (n1, k1), (n2, k2) = parts_of(first), parts_of(second)
+    laws = [SameMedium(operands, "", "", "") for operands in ((n1, n2), (n1, n2, k1, k2))]
+    return not are_same(first, second) and any(law.fault() for law in laws if not law.is_open)

@@ -45,17 +45,18 @@ class Meetings:
     @cached_property
     def all(self) -> tuple[Meeting, ...]:
         """Every meeting, those by a front first: these have a medium to be given."""
-        elements = self.wiring.elements
-        starts = [
-            (name, port)
-            for name, element in elements.items()
-            if isinstance(element, MediaOfBoundary)
-            for port in element.outputs
-        ]
-        if not starts:
-            return ()
-        results = [meeting for start in starts for meeting in self._of(start)]
+        results = [meeting for meeting in self._arrivals if self._is_boundary(meeting.enters)]
         return tuple(sorted(results, key=lambda meeting: meeting.enters[1] == "back"))
+
+    @cached_property
+    def _arrivals(self) -> list[Meeting]:
+        """Where light of boundaries gets to in one medium: other boundaries, and mirrors."""
+        elements = self.wiring.elements
+        starts = [(name, port) for name, e in elements.items() for port in e.outputs]
+        return [way for start in starts if self._is_boundary(start) for way in self._of(start)]
+
+    def _is_boundary(self, port: Port) -> bool:
+        return isinstance(self.wiring.elements[port[0]], MediaOfBoundary)
 
     @cached_property
     def _links_from(self) -> dict[Port, list[Link]]:
@@ -72,20 +73,19 @@ class Meetings:
 
         All in one plane: neither between two mirrors nor by way of a beam splitter.
         """
-        elements = self.wiring.elements
-        boundaries = [name for name in elements if isinstance(elements[name], MediaOfBoundary)]
-        starts = [(name, port) for name in boundaries for port in elements[name].outputs]
-        for there in (way for start in starts for way in self._of(start, to_mirrors=True)):
+        for there in self._arrivals:
             mirror, enters = there.enters
-            ways = self.wiring.couplings[mirror]
-            for way in () if isinstance(elements[mirror], FourPort) else ways:
+            element = self.wiring.elements[mirror]
+            if not there.straight or isinstance(element, (MediaOfBoundary, FourPort)):
+                continue
+            for way in self.wiring.couplings[mirror]:
                 if way.enters == enters and way.reflects:
                     for back in self._of((mirror, way.leaves)):
                         if back.straight and back.enters == _side(there.leaves):
                             yield there, back
 
-    def _of(self, start: Port, *, to_mirrors: bool = False) -> Iterator[Meeting]:
-        """Yield where light goes in one medium: boundaries, also by mirrors; else just mirrors."""
+    def _of(self, start: Port) -> Iterator[Meeting]:
+        """Yield where light goes in one medium, also by mirrors."""
         wiring = self.wiring
         waiting: list[tuple[Port, bool, tuple[Any, ...]]] = [(start, True, ())]
         seen: dict[Port, set[Any]] = {}
@@ -101,20 +101,17 @@ class Meetings:
                     continue
                 routes.add(route)
                 meeting = Meeting(start, enters, straight, turns, frozenset([_side(start), enters]))
-                if isinstance(element, MediaOfBoundary):
-                    if not to_mirrors:
-                        yield meeting
+                if self._is_boundary(enters):
+                    yield meeting
                     continue
                 for way in wiring.couplings[link[1]]:
                     # A beam splitter lets light through as it is.
                     passes = isinstance(element, FourPort) and not way.reflects
                     goes_on = element.straight or passes
-                    if way.enters != enters[1] or not (goes_on or way.reflects):
-                        continue
-                    if to_mirrors and not goes_on:
-                        yield meeting
-                    else:
+                    if way.enters == enters[1] and (goes_on or way.reflects):
                         waiting.append(((link[1], way.leaves), straight and goes_on, turns))
+                        if not goes_on:
+                            yield meeting
 
     @cached_property
     def in_layers(self) -> tuple[Meeting, ...]:

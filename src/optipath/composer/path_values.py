@@ -12,7 +12,7 @@ from optipath.elements.own_element import couplings_of
 from optipath.errors import ValueFault
 from optipath.materials.quantities import ANGLE, SPECTRAL
 from optipath.plan.inputs import Inputs
-from optipath.values.arrays import broadcast_fault, changed
+from optipath.values.arrays import broadcast_fault
 from optipath.values.curve import WavelengthRange
 from optipath.values.curve_value import CurveValue
 from optipath.values.jax_values import is_traced
@@ -65,14 +65,12 @@ class Values:
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
-        entries = dict.fromkeys(
-            (end, enters) for _, end, (_, enters) in self.graph.edges(keys=True)
-        )
-        elements = self.graph.nodes(data="element")
+        links, elements = self.graph.edges(keys=True), self.graph.nodes(data="element")
+        entries = dict.fromkeys((end, enters) for _, end, (_, enters) in links)
         return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
 
     @cached_property
-    def _known_uses(self) -> list[Use]:
+    def parameter_uses(self) -> list[Use]:
         """The parameters where they stand; what follows from others is none of them."""
         return [
             use
@@ -84,7 +82,7 @@ class Values:
     def _placed(self) -> dict[str, Parameter]:
         """The parameters by name, where they are met first: with their scale and offset there."""
         results: dict[str, Parameter] = {}
-        for use in self._known_uses:
+        for use in self.parameter_uses:
             known = results.get(use.value.name)
             taken_over = known is not None and known is not use.value and _yields(known)
             if known is None or (taken_over and not _yields(use.value)):
@@ -128,13 +126,12 @@ class Values:
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
-        per_nanometre = {
-            use.value.depends_on[0].name: None
+        curves = [
+            use.value.depends_on[0]
             for use in self.uses
-            if use.domain is SPECTRAL
-            and isinstance(use.value, CurveValue)
-            and isinstance(use.value.depends_on[0], Parameter)
-        }
+            if use.domain is SPECTRAL and isinstance(use.value, CurveValue)
+        ]
+        per_nanometre = dict.fromkeys(p.name for p in curves if isinstance(p, Parameter))
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},
             bound={name: p for name, p in self.parameters.items() if p.bound},
@@ -167,9 +164,9 @@ class Values:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.
-                if (id(use.value), use.domain) in looked_at:
+                if (array := (id(use.value), use.domain)) in looked_at:
                     continue
-                looked_at.add((id(use.value), use.domain))
+                looked_at.add(array)
             try:
                 use.check()
             except ValueFault as fault:
@@ -188,21 +185,22 @@ class Values:
         for name in self.graph.graph.get("choices", ()):
             if name in self.parameters:
                 yield f"'{name}' is a parameter and a choice; use two names"
-        for use in self._known_uses:
+        uses = [use for use in self.uses if isinstance(use.value, Parameter)]
+        tails = {use.value.name: use.domain.tail for use in reversed(uses)}
+        for use in self.parameter_uses:
             name = use.value.name
             known = self.parameters[name]
             alike = use.value is self._placed[name] or use.value.same_specification(known)
             yields = _yields(use.value) and not known.bound
             if not alike and not (yields and dimension_of(known.unit) == "length"):
                 yield self._difference(use, known)
-            if use.domain.tail != self._tails[name]:
+            if use.domain.tail != tails[name]:
                 yield (
                     f"parameter '{name}' at {use.owner} has another shape than elsewhere; "
                     f"use two names"
                 )
-            if self._is_taken_over(use):
-                continue
-            if use.value.optional and not self._can_be_absent(use.owner):
+            taken_over = self._is_taken_over(use)
+            if use.value.optional and not taken_over and not self._can_be_absent(use.owner):
                 yield (
                     f"parameter '{name}' is optional, but the element of {use.owner} cannot be "
                     f"left out; only one that light goes straight through can"
@@ -210,23 +208,20 @@ class Values:
 
     def _difference(self, use: Use, known: Parameter) -> str:
         """Say in what a parameter differs from the one of its name that is met first."""
-        name = known.name
         if known.bound and not use.value.bound:
             return (
-                f"parameter '{name}' is open at {use.owner}, and bound elsewhere to "
+                f"parameter '{known.name}' is open at {use.owner}, and bound elsewhere to "
                 f"{known.text(known.default)}; bind it where the path is whole"
             )
-        if not changed(use.value, unit=known.unit).same_specification(known):
-            return (
-                f"parameter '{name}' at {use.owner} differs from the one of that name "
-                f"elsewhere; use one Parameter, or two names"
-            )
-        first = next(u for u in self.uses if getattr(u.value, "name", None) == name)
-        places = ", and ".join(
-            f"{use.domain.described()}{f' in {unit}' if unit else ''} at {use.owner}"
-            for use, unit in ((first, known.unit), (use, use.value.unit))
+        first = next(u for u in self.uses if getattr(u.value, "name", None) == known.name)
+        that, this = (
+            f"{one.owner} ({one.domain.described()}{f' in {unit}' if unit else ''})"
+            for one, unit in ((first, known.unit), (use, use.value.unit))
         )
-        return f"parameter '{name}' is {places}; give it one unit, or use two names"
+        return (
+            f"parameter '{known.name}' at {this} differs from that at {that}; use one Parameter, "
+            f"or two names"
+        )
 
     def _optional_faults(self) -> Iterator[str]:
         optional: dict[str, set[str]] = {}
@@ -239,11 +234,6 @@ class Values:
                     f"'{name}' has several optional parameters ({', '.join(sorted(several))}); "
                     f"one is enough to leave it out"
                 )
-
-    @cached_property
-    def _tails(self) -> dict[str, tuple[int, ...]]:
-        uses = [use for use in reversed(self.uses) if isinstance(use.value, Parameter)]
-        return {use.value.name: use.domain.tail for use in uses}
 
     def _can_be_absent(self, owner: str) -> bool:
         name, _, part = owner.partition(".")

@@ -63,31 +63,34 @@ def placement_faults(wiring: Wiring) -> list[str]:
     results = []
     for name, element in wiring.elements.items():
         frames = wiring.graph.nodes[name]["frames"]
-        if not broadcast_fault({port: frame.z.shape[:-1] for port, frame in frames.items()}):
+        if not broadcast_fault({port: f.z.shape[:-1] for port, f in frames.items()}):
             results += element.frame_faults(name, frames)
     for link in wiring.graph.edges(keys=True):
-        results += _self_placed_faults(wiring, link) or _link_faults(wiring, link)
+        fault = _self_placed_fault(wiring, link) or _link_fault(wiring, link)
+        results += [f"link '{link_text(link)}'{fault}"] if fault else []
     for name, element in wiring.elements.items():
-        results += _meeting_faults(wiring, name, element)
+        if element.merges and frame_at(wiring, name, "in") is None:
+            results += _meeting_faults(wiring, name)
     return [*results, *_between_faults(wiring)]
 
 
-def _self_placed_faults(wiring: Wiring, link: Link) -> list[str]:
-    """Return what is wrong with a link from or to an element that has frames by its values."""
+def _self_placed_fault(wiring: Wiring, link: Link) -> str:
+    """Say what is wrong with a link from or to an element that has frames by its values."""
     start, end, _ = link
     placed = [start in wiring.self_placed, end in wiring.self_placed]
-    text = f"link '{link_text(link)}'"
     if all(placed):
         if wiring.graph.edges[link]["azimuth"] is not None:
-            return [f"{text} is turned by its vertices and by an azimuth; leave the azimuth out"]
+            return " is turned by its vertices and by an azimuth; leave the azimuth out"
         fault = wiring.elements[end].fault_behind(wiring.elements[start])
-        return [f"{text} {fault}"] if fault else []
+        return f" {fault}" if fault else ""
     if any(placed):
         argument, own = (end, start) if placed[0] else (start, end)
         if wiring.graph.nodes[argument]["frames"]:
-            problem = f"'{argument}' has world frames of its own, and '{own}' those of its vertices"
-            return [f"{text}: {problem}; place '{argument}' relatively"]
-    return []
+            return (
+                f": '{argument}' has world frames of its own, and '{own}' those of its vertices; "
+                f"place '{argument}' relatively"
+            )
+    return ""
 
 
 def _between_faults(wiring: Wiring) -> Iterator[str]:
@@ -109,61 +112,54 @@ def _between_faults(wiring: Wiring) -> Iterator[str]:
                     waiting.append(before)
 
 
-def _link_faults(wiring: Wiring, link: Link) -> list[str]:
+def _link_fault(wiring: Wiring, link: Link) -> str:
     start, end, (leaves, enters) = link
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     own = wiring.graph.edges[link]["azimuth"]
     element_turn = azimuth_at(wiring.elements[end], enters)
-    text = f"link '{link_text(link)}'"
     if own is not None and not is_zero(element_turn):
         turns = f"{turn_text(own)} and {turn_text(element_turn)}"
-        return [f"{text} and '{end}' both give an azimuth, {turns}; give it in one place"]
+        return f" and '{end}' both give an azimuth, {turns}; give it in one place"
     for name, port, frame in ((start, leaves, arriving), (end, enters, expected)):
         if frame is None and (frames := wiring.graph.nodes[name]["frames"]):
             other = f"'{name}.{port}' has no world frame, though '{name}.{next(iter(frames))}' has"
-            return [f"{text}: {other}; give it one"]
+            return f": {other}; give it one"
     ends_relatively = expected is None and not wiring.elements[end].outputs and own is None
     if (arriving is None) != (expected is None) and not ends_relatively:
         has, lacks = f"'{start}.{leaves}'", f"'{end}.{enters}'"
         if arriving is None:
             has, lacks = lacks, has
-        return [f"{text}: {has} has a world frame but {lacks} has none; give both or neither"]
+        return f": {has} has a world frame but {lacks} has none; give both or neither"
     if arriving is None or expected is None:
-        return []
+        return ""
     if not (own is None and is_zero(element_turn)):
-        return [f"{text} is turned by its world frames and by an azimuth; give one of them"]
-    return [f"{text}: {fault}" for fault in _turn_faults(arriving, expected)]
+        return " is turned by its world frames and by an azimuth; give one of them"
+    fault = _turn_fault(arriving, expected)
+    return f": {fault}" if fault else ""
 
 
-def _turn_faults(first: Frame, second: Frame) -> list[str]:
-    """Return why one frame is no turn of the other."""
+def _turn_fault(first: Frame, second: Frame) -> str:
+    """Say why one frame is no turn of the other."""
     try:
         first.turn_to(second)
     except OptipathError as fault:
-        return [str(fault)]
-    return []
+        return str(fault)
+    return ""
 
 
-def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
-    if not element.merges or frame_at(wiring, name, "in") is not None:
-        return []
+def _meeting_faults(wiring: Wiring, name: str) -> list[str]:
     links = wiring.links_to.get((name, "in"), [])
     if len(links) < 2:
         return []
+    meet = f"several lights meet at '{name}' in"
     if any(link[0] in wiring.self_placed for link in links):
-        return [
-            f"several lights meet at '{name}' in frames of vertices; give each an end of its own"
-        ]
+        return [f"{meet} frames of vertices; give each an end of its own"]
     frames = [frame for link in links if (frame := frame_at(wiring, link[0], link[2][0]))]
     for frame in frames[1:]:
-        for fault in _turn_faults(frames[0], frame):
+        if fault := _turn_fault(frames[0], frame):
             problem = f"light from directions that differ cannot meet at '{name}': {fault}"
             return [f"{problem}; give each its own detector"]
-    if frames:
-        return [
-            f"several lights meet at '{name}' in world frames; give '{name}' a frame of its own"
-        ]
-    return []
+    return [f"{meet} world frames; give '{name}' a frame of its own"] if frames else []
 
 
 def is_zero(azimuth: Any) -> bool:
@@ -204,8 +200,7 @@ def _followed(
         if own is not None:
             return own.turned(*turns)
         passed.add(port)
-        result = following(wiring, port)
-        if result is None:
+        if (result := following(wiring, port)) is None:
             return None
         port, more = result
         turns += more
@@ -216,8 +211,7 @@ def _before(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
     """Return the port that all light at a port comes from, and the turns since then."""
     name, way = port
     if way not in wiring.elements[name].inputs:
-        couplings = wiring.couplings[name]
-        ways = {c.enters for c in couplings if c.leaves == way}
+        ways = {c.enters for c in wiring.couplings[name] if c.leaves == way}
         fed = [enters for enters in ways if enters and (name, enters) in wiring.links_to]
         straight = len(fed) == 1 and goes_straight(wiring.elements[name], fed[0], way)
         return ((name, fed[0]), []) if straight else None

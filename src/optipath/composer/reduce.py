@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import partial
-from math import inf
+from functools import lru_cache, partial
+from math import inf, isfinite
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+import numpy as np
+
 from optipath.composer.builder import Item, along_chains, label_of
-from optipath.composer.live import Live, known_numbers, left_out, number_of, vanishes
-from optipath.engines.program import MODELS, Reduction, Tolerance
+from optipath.engines.program import MODELS, Reduction, Result, Tolerance
 from optipath.errors import ComposerError, listed
 from optipath.kernels.carriers.structures import BLOCK, DEPOLARIZING_BLOCK, FULL, ROTATION, SCALE
 from optipath.kernels.catalog import (
@@ -22,17 +23,230 @@ from optipath.kernels.catalog import (
     TURN,
     TURN_BACK,
 )
+from optipath.kernels.kernel import Entry
 from optipath.kernels.primitives import FLOAT
 from optipath.values.operands import Operand, Operation, ResultOf
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Set as AbstractSet
 
     from optipath.engines.program import Program
     from optipath.kernels.carriers.structures import Structure
     from optipath.kernels.kernel import Kernel
 
     Pass: TypeAlias = Callable[[Program], tuple[Program, list[str]]]
+
+
+Entries: TypeAlias = tuple[tuple[Entry, ...], ...]
+"""Four rows of a matrix, or one row of what a source emits."""
+
+_ALL = frozenset(range(4))
+_IDENTITY: Entries = tuple(tuple(float(row == column) for column in range(4)) for row in range(4))
+
+
+class Live:
+    """What of each light of a program is alive."""
+
+    def __init__(
+        self,
+        program: Program,
+        doubtful: AbstractSet[int] = frozenset(),
+        entries: list[Entries] | None = None,
+    ) -> None:
+        self.program = program
+        self.doubtful = doubtful
+        self.entries = _entries_of_steps(program) if entries is None else entries
+        self.sources = [_sources(each) for each in self.entries]
+        self.reached: list[set[int]] = [set() for _ in program.steps]
+        self.needed: list[set[int]] = [set() for _ in program.steps]
+        _until_resolved(reversed(range(len(program.steps))), self._forward)
+        for reading in program.readings.values():
+            self.needed[reading.light] |= set(range(reading.components))
+        _until_resolved(range(len(program.steps)), self._backward)
+
+    @property
+    def components(self) -> tuple[tuple[int, ...], ...]:
+        """For each light, the components that are alive; an intensity always is."""
+        pairs = zip(self.reached, self.needed, strict=True)
+        return tuple([tuple(sorted((reached & needed) | {0})) for reached, needed in pairs])
+
+    def idle(self) -> set[int]:
+        """Return the steps that each leave everything as it is that is alive."""
+        results = set()
+        for light, step in enumerate(self.program.steps):
+            if step.evaluation is not None and step.inputs:
+                needed, reached = self.needed[light] | {0}, self.reached[step.inputs[0]]
+                changed = _changed(self.entries[light])
+                if not any(row in needed and column in reached for row, column in changed):
+                    results.add(light)
+        return results
+
+    def _forward(self, light: int) -> Iterable[int]:
+        inputs = self.program.steps[light].inputs
+        arriving = set().union(*[self.reached[before] for before in inputs]) if inputs else _ALL
+        results = {row for row, columns in enumerate(self.sources[light]) if columns & arriving}
+        if light in self.doubtful:
+            results |= arriving
+        if results <= self.reached[light]:
+            return ()
+        self.reached[light] |= results
+        return self.program.used_by[light]
+
+    def _backward(self, light: int) -> Iterable[int]:
+        request = set().union(*[self.sources[light][row] for row in self.needed[light]])
+        before = [i for i in self.program.steps[light].inputs if not request <= self.needed[i]]
+        for source in before:
+            self.needed[source] |= request
+        return before
+
+
+def _until_resolved(lights: Iterable[int], look: Callable[[int], Iterable[int]]) -> None:
+    """Look at lights, the last one first, and again at those that the look at another asks for."""
+    waiting = dict.fromkeys(lights)
+    while waiting:
+        light, _ = waiting.popitem()
+        waiting |= dict.fromkeys(look(light))
+
+
+@lru_cache(1024)
+def _sources(entries: Entries) -> tuple[frozenset[int], ...]:
+    """Return of which components each component is made."""
+    if len(entries) == 1:
+        # What a source emits is made of nothing that arrives, and there if it is not 0.
+        return tuple(_ALL if entry != 0.0 else frozenset() for entry in entries[0])
+    return tuple(frozenset(j for j, entry in enumerate(row) if entry != 0.0) for row in entries)
+
+
+@lru_cache(1024)
+def _changed(entries: Entries) -> tuple[tuple[int, int], ...]:
+    """Return which entries are not, or may not be, those of a step that does nothing."""
+    places = ((row, column) for row in range(4) for column in range(4))
+    return tuple((r, c) for r, c in places if entries[r][c] != _IDENTITY[r][c])
+
+
+def left_out(program: Program) -> tuple[Program, list[str]]:
+    """Return a program without the steps that do nothing to what is alive."""
+    live = Live(program)
+    # One may be idle since another takes away what would reach it: without both, it reaches on.
+    idle = live.idle()
+    idle = idle and idle & Live(program, idle, live.entries).idle()
+    if not idle:
+        return replace(program, live=live.components), []
+    notes = []
+    for light in sorted(idle):
+        step = program.steps[light]
+        kernel = program.evaluations[step.evaluation or 0].kernel
+        notes.append(f"left out, since it changes nothing alive: {kernel.name} at '{step.label}'")
+
+    def rest(items: list[Item]) -> list[Item]:
+        return [item for item in items if item.light not in idle]
+
+    return along_chains(program, rest), notes
+
+
+def number_of(operand: Operand) -> float | None:
+    """Return the one real number that an operand is known to be; None for all else."""
+    quickly = operand.known_float
+    if quickly is not None:
+        return quickly
+    if not operand.known or operand.traced or operand.part == "present":
+        return None
+    numbers = operand.numbers({})
+    return None if numbers.ndim or numbers.dtype.kind == "c" else float(numbers)
+
+
+def vanishes(operand: Operand) -> bool:
+    """Tell whether an operand is known to be 0, for every path."""
+    if not operand.known or operand.traced:
+        return False
+    numbers = operand.numbers({})
+    # Of most arrays the first number tells.
+    return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
+
+
+def known_numbers(
+    program: Program,
+) -> tuple[list[float | None], list[tuple[float, ...] | None]]:
+    """Return the number of each operand, and those of each evaluation, as far as known.
+
+    In a loop none is known: in twice the digits, what floats give as 0 or 1 may be neither.
+    """
+    operands = [number_of(operand) for operand in program.operands]
+    outcomes: list[tuple[float, ...] | None] = []
+    for evaluation in program.evaluations:
+        arguments: list[float | None] = []
+        for argument in evaluation.arguments:
+            if isinstance(argument, Result):
+                results = outcomes[argument.evaluation]
+                arguments.append(None if results is None else results[argument.place])
+            else:
+                arguments.append(operands[argument])
+        unknown = None in arguments or program.loops
+        outcomes.append(None if unknown else _evaluated(evaluation.kernel, tuple(arguments)))
+    return operands, outcomes
+
+
+def _entries_of_steps(program: Program) -> list[Entries]:
+    """Return what is known of the matrix of each step, or of what it emits."""
+    numbers, outcomes = known_numbers(program)
+    pairs = zip(program.operands, numbers, strict=True)
+    operands = [0.0 if n is None and vanishes(o) else _zero_or_one(n) for o, n in pairs]
+    results: list[Entries] = []
+    for evaluation, outcome in zip(program.evaluations, outcomes, strict=True):
+        known: list[Entry] = []
+        for argument in evaluation.arguments:
+            if not isinstance(argument, Result):
+                known.append(operands[argument])
+                continue
+            # A result is that of a kernel without structure, of which there is one row.
+            of_matrix = program.evaluations[argument.evaluation].kernel.structure is not None
+            row = () if of_matrix else results[argument.evaluation][0]
+            known.append(_zero_or_one(row[argument.place]) if argument.place < len(row) else None)
+        may_be_absent = evaluation.presence is not None
+        results.append(_entries(evaluation.kernel, outcome, tuple(known), may_be_absent))
+    # What adds lights up, and does nothing to them, is known as such.
+    places = [step.evaluation for step in program.steps]
+    return [_IDENTITY if place is None else results[place] for place in places]
+
+
+def _zero_or_one(number: Entry) -> Entry:
+    """Return 0, 1 or None: which number it is seldom matters, but for these two."""
+    return abs(number) if number in (0.0, 1.0) else None
+
+
+@lru_cache(1024)
+def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] | None:
+    try:
+        return tuple(map(float, kernel.made_for(FLOAT)(*numbers)))
+    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+        return None
+
+
+@lru_cache(1024)
+def _entries(
+    kernel: Kernel,
+    outcome: tuple[float, ...] | None,
+    known: tuple[Entry, ...],
+    may_be_absent: bool,  # noqa: FBT001 - a part of the key
+) -> Entries:
+    """Return what is known of a matrix: its numbers, or what the kernel declares of them."""
+    if outcome is None and None not in known:
+        outcome = _evaluated(kernel, tuple(number for number in known if number is not None))
+    zeros = {place for place, number in enumerate(known) if number == 0.0}
+    numbers = kernel.known_numbers(zeros, len(known)) if outcome is None else outcome
+    if kernel.structure is None:
+        row = tuple(
+            None if number is None or not isfinite(number) else number for number in numbers
+        )
+        return (row or (None,) * 4,)
+    rows = kernel.structure.known_rows(numbers)
+    if not may_be_absent:
+        return rows
+    return tuple(
+        tuple(entry if entry == usual else None for entry, usual in zip(row, of_none, strict=True))
+        for row, of_none in zip(rows, _IDENTITY, strict=True)
+    )
 
 
 def passes_for(model: str, composing: str, dtype: str) -> tuple[dict[str, Pass], int]:
@@ -80,8 +294,8 @@ def by_name(exact: Reduction, model: str) -> Reduction:
     for light, alive in enumerate(exact.live):
         if alive[-1] > most:
             cure = f"use model '{exact.model}' or 'auto'"
-            if not _others(exact):
-                cure += ", or give a tolerance"
+            if not exact.program.loops:
+                cure += ", or give a tolerance, and let all read 'intensity'"
             raise ComposerError(
                 f"model '{model}' is not exact for this path: S{alive[-1]} is alive at "
                 f"'{exact.program.steps[light].label}'; {cure}"
@@ -90,29 +304,12 @@ def by_name(exact: Reduction, model: str) -> Reduction:
 
 
 def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
-    """Return which model is taken where a certificate allows it."""
-    size = MODELS.index(exact.model)
+    """Return which model is taken where a certificate allows it; None where there is none."""
     wanted = "scalar" if model == "auto" else model
-    if MODELS.index(wanted) >= size:
+    read_more = any(end.components > 1 for end in exact.program.readings.values())
+    if read_more or exact.program.loops or MODELS.index(wanted) >= MODELS.index(exact.model):
         return None
-    others = _others(exact)
-    if not others and not exact.program.loops:
-        return Tolerance(wanted, most)
-    if model == "auto":
-        return None
-    why = f"{listed([repr(name) for name in others])} reads more"
-    if exact.program.loops:
-        why = "the light of this path goes round"
-    raise ComposerError(
-        f"model '{model}' is not exact for this path, and certificates are for intensities of "
-        f"light that does not go round, but {why}; let all read 'intensity', as "
-        f"path.reading('intensity') does, or use model '{exact.model}'"
-    )
-
-
-def _others(exact: Reduction) -> list[str]:
-    """Return the ends that read more than the intensity."""
-    return [name for name, end in exact.program.readings.items() if end.components > 1]
+    return Tolerance(wanted, most)
 
 
 def _reason(program: Program, size: int) -> str:
@@ -156,14 +353,15 @@ def _span(argument: Operand | ResultOf) -> tuple[float, float]:
     return (-inf, inf) if isinstance(argument, ResultOf) else argument.span
 
 
-_KERNELS = {
-    "scale": ATTENUATOR,
-    "rotation": PLAIN_TURN,
-    "full": MATRIX,
-    BLOCK.name: CONSTANT_BLOCK,
-    DEPOLARIZING_BLOCK.name: CONSTANT_DEPOLARIZING_BLOCK,
+_KINDS = {
+    "scale": (ATTENUATOR, 4),
+    "rotation": (PLAIN_TURN, 16),
+    "full": (MATRIX, 34),
+    BLOCK.name: (CONSTANT_BLOCK, 14),
+    DEPOLARIZING_BLOCK.name: (CONSTANT_DEPOLARIZING_BLOCK, 14),
 }
-_COSTS = {"scale": 4, "rotation": 16, BLOCK.name: 14, DEPOLARIZING_BLOCK.name: 14, "full": 34}
+"""For each structure, the kernel that is given its numbers, and about how much it costs."""
+
 _EXTINCT = 0.01
 """Where less than this share of some light passes, a product of matrices may lose its digits."""
 
@@ -177,32 +375,18 @@ class Constant(NamedTuple):
     numbers: tuple[float, ...]
 
     @property
-    def kernel(self) -> Kernel:
-        """The kernel that is given these numbers."""
-        return _KERNELS[self.structure.name]
-
-    @property
-    def cost(self) -> int:
-        """About how many operations it takes."""
-        return _COSTS[self.structure.name]
-
-    @property
-    def is_identity(self) -> bool:
-        """Whether it leaves every light as it is."""
-        return tuple(self.numbers) == self.structure.identity
-
-    @property
     def lets_through(self) -> bool:
         """Whether no light is nearly extinguished by it."""
-        first = self._rows()[0]
+        first = self.rows()[0]
         return first[0] - math.hypot(*first[1:]) > _EXTINCT * first[0]
 
-    def _rows(self) -> Sequence[tuple[float, ...]]:
+    def rows(self) -> Sequence[tuple[float, ...]]:
+        """Return the matrix."""
         return self.structure.rows(FLOAT, self.numbers)
 
     def as_full(self) -> Constant:
         """Return the same with all sixteen entries."""
-        return Constant(FULL, tuple(float(entry) for row in self._rows() for entry in row))
+        return Constant(FULL, tuple(float(entry) for row in self.rows() for entry in row))
 
     def then(self, later: Constant) -> Constant | None:
         """Return both as one of the same sort, no digit lost; None where they have none.
@@ -235,8 +419,7 @@ def multiplied(first: Constant, second: Constant) -> Constant | None:
 
 def _unless_identity(product: Constant) -> Constant | None:
     """Return a product unless its intensity is so faint, or so large, that it might get lost."""
-    first = product.structure.rows(FLOAT, product.numbers)[0][0]
-    return product if _LEAST < first < 1.0 / _LEAST else None
+    return product if _LEAST < product.rows()[0][0] < 1.0 / _LEAST else None
 
 
 def _blocks(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, ...]:
@@ -284,7 +467,7 @@ class _Multiplying:
                 results += self._as_one(run)
                 run = []
                 results.append(item)
-            elif constant.is_identity:
+            elif tuple(constant.numbers) == constant.structure.identity:
                 self.notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
             elif run and (both := run[-1][1].then(constant)):
                 run[-1] = self._joined([run[-1][0], item], both), both
@@ -297,7 +480,7 @@ class _Multiplying:
         items, constants = [item for item, _ in run], [constant for _, constant in run]
         if not (self.matrices and len(run) > 1):
             return items
-        dear = sum(constant.cost for constant in constants) > Constant(FULL, ()).cost
+        dear = sum(_KINDS[each.structure.name][1] for each in constants) > _KINDS[FULL.name][1]
         if not (dear and all(constant.lets_through for constant in constants)):
             return items
         results: list[tuple[Item, Constant]] = []
@@ -312,19 +495,29 @@ class _Multiplying:
     def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
         names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
         self.notes.append(f"constant, and multiplied: {' and '.join(names)}")
-        operation = Operation(constant.kernel, tuple(map(Operand, constant.numbers)))
+        operation = Operation(
+            _KINDS[constant.structure.name][0], tuple(map(Operand, constant.numbers))
+        )
         return items[-1]._replace(label=label_of(items), operation=operation)
+
+
+_TURNS = (TURN, TURN_BACK)
 
 
 def joined_turns(program: Program, *, sums: bool) -> tuple[Program, list[str]]:
     """Return a program whose neighbouring turns are one."""
     notes: list[str] = []
+    steps = program.steps
+    turns = {place for place, e in enumerate(program.evaluations) if e.kernel in _TURNS}
+    second = [step for step in steps if step.evaluation in turns]
+    if turns.isdisjoint([steps[step.inputs[0]].evaluation for step in second]):
+        return program, notes
 
     def joined(items: list[Item]) -> list[Item]:
         results: list[Item] = []
         for item in items:
-            turns = results and _is_turn(item) and _is_turn(results[-1])
-            if turns and len(results[-1].operation.arguments) < _MOST:
+            both = results and _is_turn(item) and _is_turn(results[-1])
+            if both and len(results[-1].operation.arguments) < _MOST:
                 names = dict.fromkeys(f"'{turn.label}'" for turn in (results[-1], item))
                 notes.append(f"the turns at {' and '.join(names)} are one")
                 results[-1:] = _as_one(results[-1], item, sums=sums and item.once)
@@ -332,17 +525,7 @@ def joined_turns(program: Program, *, sums: bool) -> tuple[Program, list[str]]:
                 results.append(item)
         return results
 
-    return (along_chains(program, joined) if _has_neighbours(program) else program), notes
-
-
-def _has_neighbours(program: Program) -> bool:
-    turns = {place for place, e in enumerate(program.evaluations) if e.kernel in _TURNS}
-    steps = program.steps
-    second = [step for step in steps if step.evaluation in turns]
-    return not turns.isdisjoint([steps[step.inputs[0]].evaluation for step in second])
-
-
-_TURNS = (TURN, TURN_BACK)
+    return along_chains(program, joined), notes
 
 
 def _is_turn(item: Item) -> bool:

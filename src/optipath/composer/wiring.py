@@ -62,11 +62,9 @@ class Wiring:
     @cached_property
     def couplings(self) -> dict[str, tuple[Coupling, ...]]:
         """The ways through the element of each node."""
-        known: dict[int, tuple[Coupling, ...]] = {}
         # One element may stand in many places.
-        for element in self.elements.values():
-            if id(element) not in known:
-                known[id(element)] = couplings_of(element)
+        each = {id(element): element for element in self.elements.values()}
+        known = {key: couplings_of(element) for key, element in each.items()}
         return {name: known[id(element)] for name, element in self.elements.items()}
 
     def own_ways(self, method: str = "stable") -> list[OwnWays]:
@@ -179,14 +177,8 @@ class Wiring:
     @cached_property
     def outlets(self) -> tuple[str, ...]:
         """The out-ports whose light no link takes: it leaves the path, read by taps or not."""
-        taken = self.links_from
-        results = (
-            f"{name}.{port}"
-            for name, element in self.elements.items()
-            for port in element.outputs
-            if (name, port) not in taken
-        )
-        return tuple(sorted(results))
+        ports = [(name, port) for name, e in self.elements.items() for port in e.outputs]
+        return tuple(sorted(".".join(port) for port in ports if port not in self.links_from))
 
 
 Port: TypeAlias = tuple[str, str]
@@ -208,28 +200,37 @@ def stretches(ways: Ways) -> list[Stretch]:
     together = cycles(ways)
     came_from = backwards(ways) if together else {}
     loops = {min(ports): _loop(ways, ports, came_from) for ports in together}
-    stands_for = {port: first for first, loop in loops.items() for port in loop.ports}
-    before = dict.fromkeys(ways, 0)
-    for port, onwards in ways.items():
-        start = stands_for.get(port, port)
-        for later in onwards:
-            end = stands_for.get(later, later)
-            before[end] += end != start
-    ready = [p for p, count in before.items() if not count and stands_for.get(p, p) == p]
+    first_of = {port: first for first, loop in loops.items() for port in loop.ports}
+    onwards: Ways = {}
+    for port, later in ways.items():
+        first = first_of.get(port, port)
+        ends = [first_of.get(end, end) for end in later]
+        onwards.setdefault(first, []).extend(end for end in ends if end != first)
+    return [loops.get(port) or Stretch((port,)) for port in _in_order(onwards)]
+
+
+def _in_order(ways: Ways) -> list[Port]:
+    """Return ports so that each comes behind those that lead to it; ties by name."""
+    before = _counts(ways)
+    ready = [port for port, count in before.items() if not count]
     heapify(ready)
-    order: list[Stretch] = []
+    order: list[Port] = []
     while ready:
-        port = heappop(ready)
-        stretch = loops.get(port) or Stretch((port,))
-        order.append(stretch)
-        for member in stretch.ports:
-            for later in ways[member]:
-                end = stands_for.get(later, later)
-                if end != port:
-                    before[end] -= 1
-                    if not before[end]:
-                        heappush(ready, end)
+        order.append(heappop(ready))
+        for later in ways[order[-1]]:
+            before[later] -= 1
+            if not before[later]:
+                heappush(ready, later)
     return order
+
+
+def _counts(ways: Ways) -> dict[Port, int]:
+    """Return how many ways lead to each port."""
+    before = dict.fromkeys(ways, 0)
+    for onwards in ways.values():
+        for later in onwards:
+            before[later] += 1
+    return before
 
 
 def cycles(ways: Ways) -> list[set[Port]]:
@@ -273,10 +274,7 @@ def among(ways: Ways, stored: set[Port]) -> Ways:
 
 def _going_round(ways: Ways) -> set[Port]:
     """Return the ports that are left when those to which no other leads are taken away."""
-    before = dict.fromkeys(ways, 0)
-    for onwards in ways.values():
-        for later in onwards:
-            before[later] += 1
+    before = _counts(ways)
     gone = [port for port, count in before.items() if not count]
     for port in gone:
         for later in ways[port]:
@@ -304,12 +302,15 @@ def sharing_faults(wiring: Wiring) -> Iterator[str]:
     for (name, port), links in wiring.links_from.items():
         if len(links) > 1:
             ends = listed([f"'{link[1]}.{link[2][1]}'" for link in links])
-            share = "put one behind the other, share the light with a BeamSplitter, or read it with"
             yield Fault(
                 f"port '{name}.{port}' feeds {ends}, and each would get all of its light",
-                Cure(
-                    f"{share} a tap, which takes nothing: connect(..., tap=True)",
-                    f"{share} a tap, which takes nothing: tap = true below its [[links]]",
+                Cure.of(
+                    (
+                        "put one behind the other, share the light with a BeamSplitter, or read it "
+                        "with a tap, which takes nothing: {}"
+                    ).format,
+                    "connect(..., tap=True)",
+                    "tap = true below its [[links]]",
                 ),
             )
 

@@ -1,12 +1,23 @@
-"""Binding: values, materials and curves put in place of parameters."""
+"""Binding: values, materials and curves in place of parameters, and nodes in the places chosen."""
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, ParameterError, collecting
+from optipath.composer.placement import goes_straight
+from optipath.composer.wiring import Wiring
+from optipath.errors import (
+    Fault,
+    OptipathError,
+    ParameterError,
+    PathError,
+    collecting,
+    shown,
+    unknown,
+)
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     extinctions_with,
@@ -14,6 +25,15 @@ from optipath.materials.named_materials import (
     of_complex,
     places_of,
     waits_for,
+)
+from optipath.paths.editing import (
+    element_at,
+    find_port,
+    insert,
+    natural_port,
+    remove,
+    turn_to,
+    turns_to,
 )
 from optipath.plan.inputs import LargeAngles
 from optipath.values.arrays import changed, same
@@ -24,7 +44,7 @@ from optipath.values.use import axes_for, checked_later
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Mapping, Sequence
+    from collections.abc import Container, Iterator, Sequence
 
     import networkx as nx
 
@@ -35,7 +55,7 @@ if TYPE_CHECKING:
 def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> Values:
     """Return the values of a copy of a path in which parameters have values."""
     if any(map(is_by_wavelength, values.values())):
-        values, placed = materials_placed(values, known.uses)
+        values, placed = _materials_placed(values, known.uses)
         if placed and not for_good:
             raise ParameterError(
                 f"parameter '{min(placed)}' cannot have as its default what depends on "
@@ -77,12 +97,12 @@ def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> 
     return result
 
 
-def materials_placed(
+def _materials_placed(
     values: Mapping[str, Any], uses: Sequence[Use]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return what is bound once curves are in place, and materials give n and k."""
     placed: dict[str, Any] = {}
-    plain, faults = dict(values), []
+    plain, faults = dict(values), list[str]()
     for name, material in values.items():
         places = places_of(uses, name)
         known = not places or places[0].value.bound or isinstance(places[0].value, Wavelength)
@@ -93,22 +113,15 @@ def materials_placed(
             placed[name] = curve_values(material, Wavelength())[0] if curve else material
             del plain[name]
             continue
-        wrong: list[str] = []
-        with collecting(wrong):
+        before, other = len(faults), extinctions_with(uses, name)
+        with collecting(faults):
             for use in places:
                 use.refuse_material(material)
-        if wrong:
-            faults += wrong
-            continue
-        other = extinctions_with(uses, name)
-        arguments: dict[str, Any] = {name: material.n} if other else {name: material}
-        if other:
-            arguments |= {k.name: material.k for k in other.values() if isinstance(k, Parameter)}
-        elif not waits_for(material):
-            continue  # One complex number.
-        if wrong := _faults(name, material, other, places, values, uses):
-            faults += wrong
-            continue
+        if len(faults) > before or not (other or waits_for(material)):
+            continue  # Without both, it is one complex number.
+        faults += _faults(name, material, other, places, values, uses)
+        arguments: dict[str, Any] = {name: material.n if other else material}
+        arguments |= {k.name: material.k for k in other.values() if isinstance(k, Parameter)}
         for part, value in arguments.items():
             plain.pop(part, None)
             is_number = not isinstance(value, (Parameter, Material))
@@ -129,46 +142,37 @@ def from_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set[str
 def _faults(
     name: str,
     material: Material,
-    neighbors: Mapping[str, Any],
+    extinctions: Mapping[str, Any],
     places: Sequence[Use],
     values: Mapping[str, Any],
     uses: Sequence[Use],
-) -> list[str]:
-    """Return why a material cannot stand where the parameter does, or give its k there."""
-    faults = [
-        f"parameter '{name}' stands as {use.value.formula} at {use.owner}, for which no Material "
-        f"can be given; let '{name}' itself stand there"
-        for use in places
-        if not use.value.is_signed or use.value.is_negative
-    ]
-    for owner, k in neighbors.items():
-        if not isinstance(k, Parameter):
-            if not same(k, material.k):
-                faults.append(
-                    f"{owner} is {k:g} where the path is built, but {material} has a k of its "
-                    f"own; make it a parameter there"
-                )
-        elif k.name in values:
-            faults.append(
+) -> Iterator[str]:
+    """Yield why a material cannot stand where the parameter does, or give its k there."""
+    for use in places:
+        if not use.value.is_signed or use.value.is_negative:
+            yield (
+                f"parameter '{name}' stands as {use.value.formula} at {use.owner}, for which no "
+                f"Material can be given; let '{name}' itself stand there"
+            )
+    for owner, k in extinctions.items():
+        is_open = isinstance(k, Parameter) and not k.bound and k.is_signed and not k.is_negative
+        if is_open and k.name in values:
+            yield (
                 f"parameter '{k.name}' is given by '{name}', a Material, which has its own k; "
                 f"leave {k.name} out, or make a Material of that k"
             )
-        elif k.bound or not k.is_signed or k.is_negative:
-            faults.append(
-                f"{owner} is {k.formula}, so that no Material can give it; let the parameter "
-                f"'{k.name}' itself stand there, and leave it open"
+        elif is_open and {use.owner for use in places_of(uses, k.name)} <= {*extinctions}:
+            continue
+        elif isinstance(k, Parameter) or not same(k, material.k):
+            yield (
+                f"{owner} is {k.formula if isinstance(k, Parameter) else k}, but {material} for "
+                f"'{name}' has a k of its own; let an open parameter stand there, and nowhere else"
             )
-        elif others := {use.owner for use in places_of(uses, k.name)} - {*neighbors}:
-            faults.append(
-                f"parameter '{k.name}' stands at {min(others)} besides, of which '{name}' says "
-                f"nothing; use two names"
-            )
-    if neighbors and len({use.owner for use in places}) > len(neighbors):
-        faults.append(
+    if extinctions and len({use.owner for use in places}) > len(extinctions):
+        yield (
             f"parameter '{name}' is n beside a k in one place, and stands without a k in another; "
             f"use two names"
         )
-    return faults
 
 
 def cases_left(cases: Mapping[str, Case], known: Container[str]) -> dict[str, Case]:
@@ -217,3 +221,90 @@ def _exchanged(value: Any, values: Mapping[str, Any]) -> Any:
         return tuple(_exchanged(one, values) for one in value)
     # What is made of several values, as a material and a chain of vertices are.
     return _with_other_fields(value, values) if is_dataclass(value) else value
+
+
+@dataclass(frozen=True)
+class PlaceChoice:
+    """Behind which port a node stands, by word."""
+
+    node: str
+    behind: Mapping[str, str] = field(default_factory=dict)
+    help: str = ""
+
+    def __post_init__(self) -> None:
+        pairs = self.behind.items() if isinstance(self.behind, Mapping) else ()
+        texts = [self.node, *(text for pair in pairs for text in pair)]
+        named = pairs and all(isinstance(text, str) and text.strip() for text in texts)
+        if not named or not isinstance(self.help, str):
+            raise PathError(
+                f"a choice of places is a node and, behind, a port for each word, not "
+                f"{shown(self.node)} and {shown(self.behind)}"
+            )
+        object.__setattr__(self, "behind", dict(self.behind))
+
+    def renamed(self, names: Mapping[str, str]) -> PlaceChoice:
+        """Return the same choice where nodes are called otherwise."""
+        ports = {word: port.partition(".") for word, port in self.behind.items()}
+        behind = {
+            word: names.get(name, name) + dot + way for word, (name, dot, way) in ports.items()
+        }
+        return replace(self, node=names[self.node], behind=behind)
+
+    def place(self, graph: nx.MultiDiGraph) -> str:
+        """Return the word of the place where the node stands; empty if it is none of them."""
+        before = [(start, leaves) for start, _, (leaves, _) in graph.in_edges(self.node, keys=True)]
+        ports = {word: find_port(graph, port, out=True) for word, port in self.behind.items()}
+        return next((word for word, port in ports.items() if [port] == before), "")
+
+
+def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
+    """Move the node of a choice, in place."""
+    choice: PlaceChoice = graph.graph["choices"][name]
+    if faults := unknown(f"{name}", word, choice.behind):
+        raise PathError(*faults)
+    element = element_at(graph, choice.node)
+    if choice.place(graph) != word:
+        try:
+            turns = turns_to(graph, choice.node) if graph.in_degree(choice.node) else None
+            remove(graph, choice.node)
+            insert(graph, choice.node, element, choice.behind[word], None)
+            if turns is not None:
+                turn_to(graph, choice.node, turns)
+        except PathError as fault:
+            wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}"
+            raise PathError(*(each.under(wrong) for each in fault.faults)) from None
+
+
+def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
+    """Return why the node of a choice cannot be put in its places, a sentence each."""
+    node, faults = choice.node, list[str]()
+    with collecting(faults, PathError):
+        element = element_at(graph, node)
+        enters, leaves = (natural_port(element, node, out=out) for out in (False, True))
+        if not goes_straight(element, enters, leaves):
+            faults.append(f"light does not go straight through '{node}', so it has no other place")
+    # What has no place at all says nothing of links.
+    links = None if faults else Wiring(graph).links_from
+    for word, port in choice.behind.items():
+        at = f"place '{word}'"
+        with collecting(faults, PathError, at):
+            start, way = find_port(graph, port, out=True)
+            if links is not None and (start == node or len(links.get((start, way), [])) != 1):
+                no_place = f"'{start}.{way}' feeds no one link that '{node}' could be put into"
+                faults.append(Fault(no_place, place=at))
+    return faults
+
+
+def with_arguments(known: Values, values: dict[str, Any], *, for_good: bool) -> Values:
+    """Return the values of a path with nodes in the places chosen, and other values given."""
+    faults: list[str] = []
+    if places := [name for name in known.graph.graph["choices"] if name in values]:
+        known = Values(known.graph.copy())
+        for name in places:
+            with collecting(faults, PathError):
+                put_in_place(known.graph, name, values.pop(name))
+    with collecting(faults, ParameterError):
+        known = bind(known, values, for_good=for_good)
+    if faults:
+        raise ParameterError(*faults)
+    return known

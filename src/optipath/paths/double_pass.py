@@ -11,7 +11,7 @@ from optipath.elements.known_sizes import vanishes
 from optipath.elements.own_element import couplings_of
 from optipath.errors import PathError
 from optipath.materials.index_domains import FOLLOWS
-from optipath.paths.joining import natural_of, next_by_kind
+from optipath.paths.editing import natural_of, next_by_kind
 from optipath.paths.path_graph import PathGraph
 
 if TYPE_CHECKING:
@@ -80,12 +80,9 @@ def _doubled(there: PathGraph, last: PathGraph) -> PathGraph:
     for start, end, (leaves, enters), azimuth in back.graph.edges(keys=True, data="azimuth"):
         path.connect(f"{names[start]}.{leaves}", f"{names[end]}.{enters}", azimuth)
     ((before, _, (leaves, _)),) = path.graph.in_edges(turning, keys=True)
-    element = path.element(turning)
-    path.connect(
-        f"{turning}.{natural_of(element, out=True)}",
-        f"{names[before]}.{path.element(before).port_back(leaves)}",
-        None if is_zero(azimuth_at(element, "in")) else azimuth_at(element, "in"),
-    )
+    arrives = f"{names[before]}.{path.element(before).port_back(leaves)}"
+    azimuth = azimuth_at(path.element(turning), "in")
+    path.connect(turning, arrives, None if is_zero(azimuth) else azimuth)
     return path
 
 

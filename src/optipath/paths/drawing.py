@@ -97,10 +97,8 @@ def value_text(value: Any, unit: str) -> str:
     if isinstance(value, tuple):
         return "[" + ", ".join(value_text(one, unit) for one in value) + "]"
     if isinstance(value, np.ndarray):
-        if not value.ndim:
-            return value_text(value.item(), unit)
-        if value.ndim == 1 and value.size <= _FEW:
-            return value_text(tuple(value.tolist()), unit)
+        if not value.ndim or (value.ndim == 1 and value.size <= _FEW):
+            return value_text(tuple(value.tolist()) if value.ndim else value.item(), unit)
         matrix = f"a {' x '.join(map(str, value.shape))} matrix"
         return matrix if value.ndim == 2 else f"array of shape {value.shape}"
     if isinstance(value, bool):

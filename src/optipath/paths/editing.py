@@ -1,9 +1,14 @@
-"""Editing: nodes and links added, inserted, removed and replaced."""
+"""Editing: ports by name, graphs joined by ``>>``, nodes and links added, replaced and removed."""
 
 from __future__ import annotations
 
+import dataclasses
+import re
 from collections.abc import Mapping
+from itertools import count
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from optipath.composer.placement import (
     azimuth_of,
@@ -13,28 +18,336 @@ from optipath.composer.placement import (
     placement_faults,
     turn_text,
 )
-from optipath.composer.wiring import Wiring, link_text
+from optipath.composer.wiring import LOOPS, Wiring, link_text
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import azimuth_at
-from optipath.errors import PathError, collecting, did_you_mean, listed, shown, there_are
+from optipath.errors import (
+    OptipathError,
+    PathError,
+    collecting,
+    did_you_mean,
+    listed,
+    shown,
+    there_are,
+)
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
-from optipath.paths.joining import (
-    are_alike,
-    check_port,
-    element_at,
-    find_port,
-    natural_port,
-    turn_more,
-)
+from optipath.values.arrays import changed, joint_shape, read_only, same
+from optipath.values.parameters import Parameter
 from optipath.values.use import stored_value
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Collection, Iterable, Sequence
 
     import networkx as nx
 
-    from optipath.composer.wiring import Link
+    from optipath.composer.wiring import Link, Port
+
+
+_ROUNDING = 4e-15
+"""Up to what angle two turns are one."""
+
+_LONGEST = 12
+"""How many nodes a path may have that is shown as a chain."""
+
+
+def name_by_kind(element: Element) -> str:
+    """Return what a node of an element is called in a chain: its kind, or that of its class.
+
+    >>> from optipath.elements.splitters import BeamSplitter
+    >>> from optipath.elements.element import Element
+    >>> class WavePlate(Element): ...
+    >>> name_by_kind(BeamSplitter()), name_by_kind(WavePlate())
+    ('beam-splitter', 'wave-plate')
+    """
+    words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "-", type(element).__name__).lower()
+    return (element.kind or words).replace(".", "-")
+
+
+def join(
+    first: nx.MultiDiGraph, second: nx.MultiDiGraph, leaves: Port | None = None
+) -> dict[str, str]:
+    """Put a graph of elements behind another, in place: its nodes and links, and one link more.
+
+    None is added where one of them is empty.
+    """
+    faults: list[str] = []
+    ends = []
+    if first and second:
+        for argument, graph, out in ((leaves, first, True), (None, second, False)):
+            with collecting(faults, PathError):
+                ends.append(argument or _open_port(graph, out=out))
+    names = _names(first, second)
+    faults += [
+        f"node '{name}' stands on both sides of >>; give one of them another name"
+        for name in names.values()
+        if name in first
+    ]
+    faults += [
+        f"choice '{name}' stands on both sides of >>; use two names"
+        for name in sorted(first.graph["choices"].keys() & second.graph["choices"].keys())
+    ]
+    if faults:
+        raise PathError(*faults)
+    for name, about in second.nodes.items():
+        first.add_node(names[name], **about)
+    for (start, end, key), about in second.edges.items():
+        first.add_edge(names[start], names[end], key=key, **about)
+    if ends:
+        (start, out_port), (end, in_port) = ends
+        first.add_edge(start, names[end], key=(out_port, in_port), azimuth=None, tap=False)
+    both = first.graph, second.graph
+    moved = {name: choice.renamed(names) for name, choice in second.graph["choices"].items()}
+    first.graph["choices"] = first.graph["choices"] | moved
+    first.graph["declared"] = tuple(dict.fromkeys(name for one in both for name in one["declared"]))
+    first.graph["loops"] = LOOPS[any(one["loops"] == LOOPS[1] for one in both)]
+    return names
+
+
+def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
+    """Put other elements behind a port, in place, and return what the last of them is called."""
+    if others is graph:
+        raise PathError(f"what is put behind '{port}' is the path that it stands in; use a copy")
+    names = join(graph, others, find_port(graph, port, out=True))
+    return list(names.values())[-1]
+
+
+def as_chain(graph: nx.MultiDiGraph) -> list[str]:
+    """Return the nodes of a path that `>>` alone can make, in order; none for any other."""
+    starts = [name for name in graph if not graph.in_degree(name)]
+    if len(starts) != 1 or len(graph) > _LONGEST or graph.number_of_edges() != len(graph) - 1:
+        return []
+    chain = starts
+    for name in chain:
+        links = list(graph.out_edges(name, keys=True, data="tap"))
+        if len(links) > 1:
+            return []
+        for _, end, (leaves, enters), tap in links:
+            natural = (
+                natural_of(element_at(graph, name), out=True),
+                natural_of(element_at(graph, end), out=False),
+            )
+            if tap or (leaves, enters) != natural:
+                return []
+            chain.append(end)
+    return chain if len(chain) == len(graph) else []
+
+
+def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
+    """Return the only natural port of a graph that no link uses."""
+    elements = dict(graph.nodes(data="element"))
+    if len(elements) == 1:
+        ((name, element),) = elements.items()
+        return name, natural_port(element, name, out=out)
+    wiring = Wiring(graph)
+    used = wiring.links_from if out else wiring.links_to
+    unused = [
+        (name, port)
+        for name, element in elements.items()
+        for port in (element.outputs if out else element.inputs)
+        if (name, port) not in used
+    ]
+    results = [port for port in unused if natural_of(elements[port[0]], out=out) == port[1]]
+    if len(results) == 1:
+        return results[0]
+    place, way = ("in front of", "out") if out else ("behind", "in")
+    several = ", ".join(f"'{name}.{port}'" for name, port in results or unused)
+    raise PathError(
+        f"the path {place} >> has {len(results)} natural ways {way} that are open, not one"
+        + (f"; connect one by its name: {several}" if unused else "")
+    )
+
+
+def _names(first: nx.MultiDiGraph, second: nx.MultiDiGraph) -> dict[str, str]:
+    """Return what the nodes of the second are called behind the first."""
+    names: dict[str, str] = {}
+    for name, element in second.nodes(data="element"):
+        taken = {*first, *second, *names.values()}
+        names[name] = (name in first and next_by_kind(name, element, taken)) or name
+    return names
+
+
+def next_by_kind(name: str, element: Element, taken: Collection[str]) -> str:
+    """Return the next name by the kind of an element; empty where its name is of its own.
+
+    >>> from optipath.elements.splitters import BeamSplitter
+    >>> next_by_kind("beam-splitter", BeamSplitter(), {"beam-splitter"})
+    'beam-splitter-2'
+    """
+    kind = name_by_kind(element)
+    if not re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name):
+        return ""
+    return next(new for n in count(2) if (new := f"{kind}-{n}") not in taken)
+
+
+def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any) -> None:
+    """Turn what a link leads to by more, in rad; its azimuth goes over to its links."""
+    if is_zero(turn):
+        return
+    before = azimuth_of(Wiring(graph), link)
+    try:
+        total = _sum(before, turn)
+    except OptipathError:
+        raise PathError(
+            f"'{link[1]}' would be turned by {turn_text(before)} and by {turn_text(turn)}, and no "
+            f"one azimuth does for both"
+        ) from None
+    _give_azimuth_to_links(graph, link)
+    graph.edges[link]["azimuth"] = None if is_zero(total) else total
+
+
+def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
+    """Return the turns in rad of a node against the port that light comes straight from."""
+    wiring, result, leaves, seen = Wiring(graph), [], "", set()
+    while len(links := graph.in_edges(name, keys=True)) == 1:
+        (link,) = links
+        start, end, (port, enters) = link
+        bends = leaves and not goes_straight(wiring.elements[end], enters, leaves)
+        if bends or link in seen:  # A ring has no port to begin at.
+            break
+        result.append(azimuth_of(wiring, link))
+        seen.add(link)
+        name, leaves = start, port
+    return [turn for turn in result if not is_zero(turn)]
+
+
+def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
+    """Turn a node, and nothing behind it, until it stands as `turns_to` told elsewhere."""
+    (enters,), (passes,) = graph.in_edges(name, keys=True), graph.out_edges(name, keys=True)
+    missing = [*turns]
+    for turn in turns_to(graph, name):
+        alike = next((at for at, one in enumerate(missing) if same(one, turn)), None)
+        if alike is None:
+            missing.append(-turn)
+        else:
+            del missing[alike]
+    for turn in missing:
+        turn_more(graph, enters, turn)
+        turn_more(graph, passes, -turn)
+
+
+def are_alike(first: Any, second: Any) -> bool:
+    """Tell whether two turns, in rad, are the same but for rounding there and back.
+
+    >>> are_alike(0.7, 0.7 - 0.9 + 0.9), are_alike(0.7, 0.8)
+    (True, False)
+    """
+    try:
+        rest = _sum(first, -second)
+    except OptipathError:
+        return False
+    return not isinstance(rest, Parameter) and bool(np.all(np.abs(rest) < _ROUNDING))
+
+
+def _give_azimuth_to_links(graph: nx.MultiDiGraph, link: Link) -> None:
+    """Let the links that an element's azimuth turns say it, if it turns this one."""
+    wiring, node = Wiring(graph), graph.nodes[link[1]]
+    links = [
+        one
+        for one in wiring.links_to[link[1], link[2][1]]
+        if graph.edges[one]["azimuth"] is None and not is_zero(azimuth_of(wiring, one))
+    ]
+    if link in links:
+        for one in links:
+            graph.edges[one]["azimuth"] = azimuth_of(wiring, one)
+        node["element"] = dataclasses.replace(node["element"], azimuth=0.0)
+
+
+def _sum(first: Any, second: Any) -> Any:
+    """Return the sum of two turns."""
+    if is_zero(first):
+        return second
+    if same(first, -second):
+        return 0.0
+    parameters = [turn for turn in (first, second) if isinstance(turn, Parameter)]
+    if not parameters:
+        joint_shape(np.shape(first), np.shape(second))
+        return read_only(first + second)
+    if len(parameters) == 2 and first.alone() == second.alone():
+        if not (scale := first.scale + second.scale):
+            return first.offset + second.offset
+        return changed(
+            first,
+            scale=scale,
+            offset=first.offset + second.offset,
+            offset_dimension=first.offset_dimension or second.offset_dimension,
+        )
+    return first + second
+
+
+def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
+    """Raise unless a port of a node is one of those given.
+
+    >>> from optipath.elements.splitters import BeamSplitter
+    >>> try:
+    ...     check_port(BeamSplitter(), "bs", "transmited", BeamSplitter.outputs)
+    ... except PathError as error:
+    ...     print(error)
+    port 'bs.transmited' does not exist; did you mean 'bs.transmitted'?
+    """
+    if port in ports:
+        return
+    if port in (*element.inputs, *element.outputs):
+        way = "in" if port in element.inputs else "out"
+        raise PathError(
+            f"port '{owner}.{port}' lets light {way}; a link goes from an out-port to an in-port"
+        )
+    known = [f"{owner}.{name}" for name in ports]
+    raise PathError(f"port '{owner}.{port}' does not exist{did_you_mean(f'{owner}.{port}', known)}")
+
+
+def natural_of(element: Element, *, out: bool) -> str:
+    """Return the port by which ``>>`` leaves an element, or enters it; empty for none."""
+    ports, said, unsaid = (
+        (element.outputs, element.natural, "out") if out else (element.inputs, element.entry, "")
+    )
+    if said in ports:
+        return said
+    return ports[0] if len(ports) == 1 and said == unsaid else ""
+
+
+def natural_port(element: Element, owner: str, *, out: bool) -> str:
+    """Return the natural port of a node.
+
+    >>> from optipath.elements.splitters import BeamSplitter
+    >>> natural_port(BeamSplitter(), "bs", out=False)
+    'in'
+    >>> try:
+    ...     natural_port(BeamSplitter(), "bs", out=True)
+    ... except PathError as error:
+    ...     print(error)
+    'bs' has no one natural way out; connect one of its out-ports: 'bs.reflected', 'bs.transmitted'
+    """
+    result = natural_of(element, out=out)
+    if result:
+        return result
+    way, ports = ("out", element.outputs) if out else ("in", element.inputs)
+    names = ", ".join(f"'{owner}.{port}'" for port in ports)
+    raise PathError(
+        f"'{owner}' has no one natural way {way}; connect one of its {way}-ports: {names}"
+        if ports
+        else f"'{owner}' has no way {way}: light {'ends' if out else 'begins'} there"
+    )
+
+
+def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:
+    """Return the node and the port that a text names in a graph of elements."""
+    if not isinstance(text, str) or text.count(".") > 1:
+        way = "out" if out else "in"
+        raise PathError(f"{shown(text)} is no {way}-port; write it as 'node.{way}'")
+    name, dot, port = text.partition(".")
+    element = element_at(graph, name)
+    if not dot:
+        return name, natural_port(element, name, out=out)
+    check_port(element, name, port, element.outputs if out else element.inputs)
+    return name, port
+
+
+def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
+    """Return the element of a node."""
+    if not isinstance(name, str) or name not in graph:
+        raise PathError(f"node {shown(name)} does not exist{did_you_mean(name, graph)}")
+    return graph.nodes[name]["element"]  # type: ignore[no-any-return]
 
 
 def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> None:
@@ -83,30 +396,28 @@ def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap:
 
 def disconnect(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> None:
     """Take a link out, as `PathGraph.disconnect` does."""
-    link = _only_link(graph, leaves) if enters is None else find_link(graph, leaves, enters)
-    graph.remove_edge(*link)
+    graph.remove_edge(*_link(graph, leaves, enters))
 
 
-def find_link(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> Link:
-    """Return the link between two ports."""
-    link = _link_of(graph, leaves, enters, [])
-    if not graph.has_edge(*link):
-        every = sorted(map(link_text, graph.edges(keys=True)))
-        raise PathError(
-            f"there is no link '{link_text(link)}'{did_you_mean(link_text(link), every)}"
-        )
-    return link
-
-
-def _only_link(graph: nx.MultiDiGraph, leaves: Any) -> Link:
-    """Return the link from a port that has no other, taps included."""
-    port = find_port(graph, leaves, out=True)
-    result = graph.out_edges(port[0], keys=True)
-    links: list[Link] = [link for link in result if link[2][0] == port[1]]
+def _link(graph: nx.MultiDiGraph, leaves: Any, enters: Any, *, taps: bool = True) -> Link:
+    """Return the link between two ports, or the only one of a port."""
+    if None not in (leaves, enters):
+        link = _link_of(graph, leaves, enters, [])
+        if not graph.has_edge(*link):
+            near = did_you_mean(link_text(link), sorted(map(link_text, graph.edges(keys=True))))
+            raise PathError(f"there is no link '{link_text(link)}'{near}")
+        return link
+    out = enters is None
+    node, port = find_port(graph, leaves if out else enters, out=out)
+    near_by = (graph.out_edges if out else graph.in_edges)(node, keys=True)
+    links: list[Link] = [link for link in near_by if link[2][not out] == port]
+    if out and not taps:
+        links = [link for link in links if not graph.edges[link]["tap"]]
     if len(links) != 1:
         every = sorted(map(link_text, links or graph.edges(keys=True)))
         raise PathError(
-            f"'{'.'.join(port)}' feeds {_listed(links)}; name both ends of one{there_are(every)}"
+            f"'{node}.{port}' {'feeds' if out else 'is fed by'} {_listed(links)}; name both ends "
+            f"of one{there_are(every)}"
         )
     return links[0]
 
@@ -135,7 +446,12 @@ def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before:
     """Put an element into a link, as `PathGraph.insert` does."""
     check_element(name, element)
     enters, passes = (natural_port(element, name, out=out) for out in (False, True))
-    link = _link_for(graph, name, behind, before)
+    if behind is before is None:
+        raise PathError(
+            f"path.insert('{name}', ...) names no link; give behind='node.port', where light "
+            f"leaves, or before='node.port', where it arrives"
+        )
+    link = _link(graph, behind, before, taps=False)
     start, end, (leaves, arrives) = link
     frame = frame_at(Wiring(graph), start, leaves) if element.straight else None
     add(graph, name, element, None if frame is None else {enters: frame})
@@ -172,104 +488,58 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
             f"the new element of '{name}' has no {ports}, which links or frames use; take "
             f"'{name}' out and add it anew"
         )
-    if said := _turned_by_links(graph, name, element):
-        for link in said:
-            graph.edges[link]["azimuth"] = None
-    elif graph.nodes[name]["element"].straight and element.straight:
-        _turn_back(graph, name, element)
-    else:
-        _check_turn(graph, name, element)
-    graph.nodes[name]["element"] = element
-
-
-def _turned_by_links(graph: nx.MultiDiGraph, name: str, element: Element) -> list[Link]:
-    """Return the links that turn a node if they say what another element says by itself."""
-    links = [
-        link
-        for link in graph.in_edges(name, keys=True)
-        if graph.edges[link]["azimuth"] is not None and not is_zero(azimuth_at(element, link[2][1]))
-    ]
-    for link in links:
-        turn = graph.edges[link]["azimuth"]
-        if not are_alike(turn, _own_turn(element)):
+    old, turn = graph.nodes[name]["element"], _own_turn(element)
+    before = {link: graph.edges[link]["azimuth"] for link in graph.in_edges(name, keys=True)}
+    twice = {
+        link: azimuth
+        for link, azimuth in before.items()
+        if azimuth is not None and not is_zero(azimuth_at(element, link[2][1]))
+    }
+    for link, azimuth in twice.items():
+        if not are_alike(azimuth, turn):
             raise PathError(
-                f"link '{link_text(link)}' turns '{name}' by {turn_text(turn)}, and the new "
-                f"element is turned by {turn_text(_own_turn(element))}; leave the azimuth of the "
-                f"new element out to have it turned as the old one is"
+                f"link '{link_text(link)}' turns '{name}' by {turn_text(azimuth)}, and the new "
+                f"element is turned by {turn_text(turn)}; leave the azimuth of the new element out "
+                f"to have it turned as the old one is"
             )
-    return links
-
-
-def _turn_back(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
-    """Turn what stands behind a node by as much as another element turns it less."""
-    if graph.nodes[name]["frames"]:
-        return  # World frames say how it stands.
-    old = _own_turn(graph.nodes[name]["element"])
-    for link in [link for link in graph.out_edges(name, keys=True) if link[1] != name]:
-        turn_more(graph, link, old)
-        turn_more(graph, link, -_own_turn(element))
-
-
-def _link_for(graph: nx.MultiDiGraph, name: Any, behind: Any, before: Any) -> Link:
-    """Return the one link behind a port, before another, or both."""
-    if behind is None and before is None:
-        raise PathError(
-            f"path.insert('{name}', ...) names no link; give behind='node.port', where light "
-            f"leaves, or before='node.port', where it arrives"
-        )
-    if behind is not None and before is not None:
-        return find_link(graph, behind, before)
-    wiring, is_behind = Wiring(graph), behind is not None
-    port = find_port(graph, behind if is_behind else before, out=is_behind)
-    links = (wiring.links_from if is_behind else wiring.links_to).get(port, [])
-    if len(links) == 1:
-        return links[0]
-    feeds = "feeds" if is_behind else "is fed by"
-    cure = "; name both ends, by behind and before" if links else ""
-    raise PathError(
-        f"'{name}' is put into one link, but '{'.'.join(port)}' {feeds} {_listed(links)}{cure}"
-    )
+        graph.edges[link]["azimuth"] = None
+    if not twice and old.straight and element.straight:
+        # World frames say how it stands; else, what is behind it stays as it was turned.
+        behind = [] if graph.nodes[name]["frames"] else graph.out_edges(name, keys=True)
+        for link in [link for link in behind if link[1] != name]:
+            turn_more(graph, link, _own_turn(old))
+            turn_more(graph, link, -turn)
+    elif not twice and is_zero(turn):
+        by_itself = [link[2][1] for link, azimuth in before.items() if azimuth is None]
+        if any(not is_zero(azimuth_at(old, port)) for port in by_itself):
+            raise PathError(
+                f"'{name}' is turned by its azimuth {turn_text(_own_turn(old))}, and the new "
+                f"element is not; give it that azimuth, or take the link out and connect it anew "
+                f"with azimuth=0.0"
+            )
+    graph.nodes[name]["element"] = element
 
 
 def _own_turn(element: Element) -> Any:
     return getattr(element, "azimuth", 0.0)
 
 
-def _check_turn(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
-    """Raise if a node was turned by its azimuth, and would not be by that of another element."""
-    wiring, azimuth = Wiring(graph), _own_turn(graph.nodes[name]["element"])
-    links = [
-        link
-        for link in graph.in_edges(name, keys=True)
-        if graph.edges[link]["azimuth"] is None and not is_zero(azimuth_of(wiring, link))
-    ]
-    if not links or not is_zero(_own_turn(element)):
-        return
-    raise PathError(
-        f"'{name}' is turned by its azimuth {turn_text(azimuth)}, and the new element is not; give "
-        f"it that azimuth, or take the link out and connect it anew with azimuth=0.0"
-    )
-
-
 def _close(graph: nx.MultiDiGraph, name: str, before: list[Link], behind: list[Link]) -> None:
     """Link what stands before a node with what stands behind it."""
-    if len(before) > 1 or len(behind) > 1 or before[0][1] == before[0][0]:
+    ((start, _, (leaves, enters)), *more), ((_, end, (passes, arrives)), *others) = before, behind
+    through = goes_straight(element_at(graph, name), enters, passes)
+    several = more or others or start == name
+    if several or not through:
+        why = "several links meet there" if several else "light does not go straight through it"
         raise PathError(
-            f"several links meet at '{name}', {_listed([*before, *behind])}; disconnect those that "
-            f"are to go first"
-        )
-    wiring = Wiring(graph)
-    ((start, _, (leaves, enters)),), ((_, end, (passes, arrives)),) = before, behind
-    if not goes_straight(wiring.elements[name], enters, passes):
-        raise PathError(
-            f"light does not go straight through '{name}'; disconnect "
+            f"'{name}' cannot be taken out, since {why}; disconnect "
             f"{_listed([*before, *behind])} first"
         )
     if graph.has_edge(start, end, key=(leaves, arrives)):
         raise PathError(
             f"link '{start}.{leaves} -> {end}.{arrives}' is there already; disconnect it first"
         )
-    turn_more(graph, behind[0], azimuth_of(wiring, before[0]))
+    turn_more(graph, behind[0], azimuth_of(Wiring(graph), before[0]))
     about = graph.edges[behind[0]]
     tap = graph.edges[before[0]]["tap"] or about["tap"]
     graph.add_edge(start, end, key=(leaves, arrives), azimuth=about["azimuth"], tap=tap)

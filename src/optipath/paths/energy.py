@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import networkx as nx
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.composer.wiring import Wiring, link_text, reached
+from optipath.composer.wiring import Wiring, cycles, link_text, reached
 from optipath.materials.quantities import plain
 
 if TYPE_CHECKING:
@@ -78,8 +77,16 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     """
     wiring = Wiring(path.graph, keep="all")
     lit = [*lights_along(path, **parameters)]
-    powers = np.broadcast_arrays(*[_power(each.light) for each in lit])
-    spent, round_and_round = reached(wiring.untapped, wiring.starts), _going_round(wiring)
+    intensities = [np.asarray(each.light.intensity, float) for each in lit]
+    # No more than the noise of what the light was is dark.
+    powers = np.broadcast_arrays(
+        *[
+            np.where(np.abs(power) < each.light.noise, 0.0, power)
+            for each, power in zip(lit, intensities, strict=True)
+        ]
+    )
+    spent = reached(wiring.untapped, wiring.starts)
+    round_and_round = set().union(*cycles(wiring.untapped))
     links = []
     for each, power in zip(lit, powers, strict=True):
         tap = each.tap or (each.start, each.leaves) not in spent
@@ -89,26 +96,12 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     flows = [link for link in links if not link.tap]
     inner = {node for node, e in wiring.elements.items() if e.inputs and e.outputs}
     begin = {node for node, e in wiring.elements.items() if not e.inputs}
-    argument = _sums((link.start, link.power) for link in flows if link.start in begin)
+    given = _sums((link.start, link.power) for link in flows if link.start in begin)
     entered = dict.fromkeys(link.end for link in flows)
     taken = {node: _taken(node, flows) for node in entered if node in inner}
     left = {link.name: link.power for link in flows if not link.end}
     ended = _sums((link.end, link.power) for link in flows if link.end and link.end not in inner)
-    return EnergyAlong((*links,), argument, taken, left, ended, (*_notes(links, taken),))
-
-
-def _power(light: Light) -> npt.NDArray[np.float64]:
-    """Return the intensity of light; 0 where that is no more than the noise of what it was."""
-    power = np.asarray(light.intensity, float)
-    return np.where(np.abs(power) < light.noise, 0.0, power)
-
-
-def _going_round(wiring: Wiring) -> set[Any]:
-    """Return the ports that light passes again and again."""
-    ways = nx.DiGraph(wiring.untapped)
-    return set().union(
-        *(ports for ports in nx.strongly_connected_components(ways) if len(ports) > 1)
-    )
+    return EnergyAlong((*links,), given, taken, left, ended, (*_notes(links, taken),))
 
 
 def _sums(powers: Iterable[tuple[str, Any]]) -> dict[str, Any]:

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
 
 import networkx as nx
 
-from optipath.composer.composer import Composer
+from optipath.composer.composer import Composer, checked
 from optipath.composer.path_values import Values
-from optipath.composer.validate import validate
 from optipath.composer.wiring import KEEPABLE, LOOPS
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
@@ -26,10 +25,19 @@ from optipath.errors import (
 )
 from optipath.materials.named_materials import is_by_wavelength, is_curve
 from optipath.paths import editing
-from optipath.paths.binding import cases_left
-from optipath.paths.editing import add, connect, disconnect, edit
-from optipath.paths.joining import append, as_chain, check_port, element_at, join, name_by_kind
-from optipath.paths.place_choice import PlaceChoice, choice_faults, with_arguments
+from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
+from optipath.paths.editing import (
+    add,
+    append,
+    as_chain,
+    check_port,
+    connect,
+    disconnect,
+    edit,
+    element_at,
+    join,
+    name_by_kind,
+)
 from optipath.paths.reversed import reversed_graph
 from optipath.values.arrays import entries_of, same
 from optipath.values.cases import Case
@@ -377,7 +385,7 @@ class PathGraph(Chainable):
         PathError
             A sentence for each fault.
         """
-        validate(self._graph, self._values)
+        checked(self._values)
 
     def bind(self, /, *unnamed: Never, **values: Any) -> Self:
         """Return a copy of the path in which parameters have these values for good.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import networkx as nx
 import numpy as np
 
-from optipath.composer.followed_values import with_followed
+from optipath.composer.media import with_followed
 from optipath.composer.meetings import Meetings
 from optipath.composer.placement import azimuth_of, frame_at, is_zero
 from optipath.composer.wiring import Wiring, link_text
@@ -19,7 +19,7 @@ from optipath.elements.ends import Detector, Dump, Source
 from optipath.elements.known_sizes import vanishes
 from optipath.errors import OptipathError, PathError, did_you_mean, listed, shown, there_are
 from optipath.kernels.kernel import called
-from optipath.paths.joining import find_port
+from optipath.paths.editing import find_port
 from optipath.values.arrays import changed, same
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from optipath.composer.wiring import Link, Port
     from optipath.light.frame import Frame
-    from optipath.paths.place_choice import PlaceChoice
+    from optipath.paths.binding import PlaceChoice
 
 
 _SAME = 1e-9
@@ -66,7 +66,13 @@ class _Turning:
 
     def reverse_elements(self, sources: dict[str, Element]) -> None:
         """Reverse the element of each node; light begins at the ends as it is told."""
-        at_angle = self._at_angle()
+        meetings = Meetings(self.wiring)
+        at_angle = {
+            meeting.leaves[0]
+            for meeting in meetings.all
+            if getattr(self.before[meeting.enters[0]], "parallel", True) is False
+            and meetings.may_be_shown(meeting)
+        }
         known: dict[int, Element] = {}
         for name, element in self.before.items():
             if not element.inputs or not element.outputs:
@@ -78,22 +84,11 @@ class _Turning:
             except OptipathError as fault:
                 self.faults += [each.under(f"'{name}'") for each in fault.faults]
                 continue
-            back = known[id(element)]
-            is_parallel = name not in at_angle
+            back, is_parallel = known[id(element)], name not in at_angle
             if isinstance(back, BoundaryElement) and vars(back)["parallel"] is not is_parallel:
                 back = changed(back, parallel=is_parallel)
             self.elements[name] = back
         self._share_arrays()
-
-    def _at_angle(self) -> set[str]:
-        """Return the boundaries that are not parallel to the one that sends them light back."""
-        meetings = Meetings(self.wiring)
-        return {
-            meeting.leaves[0]
-            for meeting in meetings.all
-            if getattr(self.before[meeting.enters[0]], "parallel", True) is False
-            and meetings.may_be_shown(meeting)
-        }
 
     def _share_arrays(self) -> None:
         """Let elements that share an array share its reverse: the vertices of one chain do."""
@@ -213,15 +208,13 @@ def reversed_choices(
     movable = {choice.node for choice in choices.values()}
     results = {}
     for name, choice in choices.items():
-        next_ports = {
-            word: _next_port(wiring, choice.node, port) for word, port in choice.behind.items()
+        ports = [_next_port(wiring, choice.node, port) for port in choice.behind.values()]
+        behind = {
+            word: f"{port[0]}.{port_back(*port)}"
+            for word, port in zip(choice.behind, ports, strict=True)
+            if port is not None and port[0] not in movable
         }
-        if all(port is not None and port[0] not in movable for port in next_ports.values()):
-            behind = {
-                word: f"{port[0]}.{port_back(*port)}"
-                for word, port in next_ports.items()
-                if port is not None
-            }
+        if len(behind) == len(ports):
             results[name] = replace(choice, behind=behind)
     return results
 
@@ -269,19 +262,13 @@ def sources_by_name(
             fault = f"source is of one of {len(detectors)} detectors; give it by name"
             return {}, [fault + there_are(ends)]
         arguments = {detectors[0]: arguments}
-    faults = [
-        f"source[{shown(name)}]: no light ends there{did_you_mean(name, ends)}"
-        for name in arguments
-        if name not in ends
-    ]
-    sources = {name: one for name, one in arguments.items() if _emits(one)}
-    faults += [
-        f"source[{shown(name)}] must be a Source, not {shown(one)}"
-        for name, one in arguments.items()
-        if name not in sources
-    ]
+    sources, faults = {}, []
+    for name, one in arguments.items():
+        if name not in ends:
+            near = did_you_mean(name, ends)
+            faults.append(f"source[{shown(name)}]: no light ends there{near}")
+        elif not isinstance(one, Element) or one.inputs or len(one.outputs) != 1:
+            faults.append(f"source[{shown(name)}] must be a Source, not {shown(one)}")
+        else:
+            sources[name] = one
     return sources, faults
-
-
-def _emits(one: Any) -> bool:
-    return isinstance(one, Element) and not one.inputs and len(one.outputs) == 1

@@ -53,7 +53,16 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
         raise ParameterError(f"parameter '{name}' is an array; a range is one of single numbers")
     uses = [use for use in inputs.uses if use.value.name == name]
     seen = [*_seen(path, parameter, uses)]
-    low, high = _around(seen, parameter, limits, uses)
+    names = {use.domain.name for use in uses}
+    if isinstance(parameter, Wavelength) or "wavelength" in names:
+        low, high = _of_light(seen, limits)
+    elif "angle" in {use.domain.dimension for use in uses}:
+        is_axis = any(isinstance(use.domain, AxisDomain) for use in uses)
+        low, high = _of_angles(seen, limits, is_axis=is_axis)
+    elif "index of refraction" in names:
+        low, high = _of_index(seen)
+    else:
+        low, high = _of_sizes(seen, parameter, limits)
     low, high = max(low, limits[0]), min(high, limits[1])
     if not low < high:
         low, high = _between(parameter, limits)
@@ -89,20 +98,6 @@ def _seen(path: PathGraph, parameter: Parameter, uses: list[Use]) -> Iterable[fl
                 f"real numbers; give the values, or n and k by parameters of their own"
             )
         yield from numbers[np.isfinite(numbers)].tolist()
-
-
-def _around(
-    seen: list[float], parameter: Parameter, limits: tuple[float, float], uses: list[Use]
-) -> tuple[float, float]:
-    names = {use.domain.name for use in uses}
-    if isinstance(parameter, Wavelength) or "wavelength" in names:
-        return _of_light(seen, limits)
-    if "angle" in {use.domain.dimension for use in uses}:
-        is_axis = any(isinstance(use.domain, AxisDomain) for use in uses)
-        return _of_angles(seen, limits, is_axis=is_axis)
-    if "index of refraction" in names:
-        return _of_index(seen)
-    return _of_sizes(seen, parameter, limits)
 
 
 def _of_light(seen: list[float], limits: tuple[float, float]) -> tuple[float, float]:

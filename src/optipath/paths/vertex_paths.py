@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.vertex_chain import BAD, VERTICES, VerticesByAngles, counted, legs_fit
-from optipath.errors import OptipathError, PathError, ValueFault, collecting, shown, unknown
+from optipath.errors import OptipathError, PathError, ValueFault, shown, unknown
 from optipath.materials.index_domains import OUTSIDE
-from optipath.paths.chain_histories import Histories, histories
-from optipath.paths.chain_media import (
+from optipath.paths.chains import (
+    Histories,
     apart_where_absorbed,
+    histories,
     normals_checked,
     path_of_chains,
     refuse_doubtful,
@@ -114,26 +115,23 @@ def path_from_vertices(
     >>> print(both.trace().intensity.round(9))
     [0.00147456 0.04      ]
     """
-    try:
-        several = entries_of("materials", "one for each vertex", materials)
-        if not several:
-            raise ValueFault("materials must be a sequence of one for each vertex; it is empty")
-        chains = histories(
-            [_real_again(medium) for medium in several], events, ids, lengths, _batch_of(vertices)
-        )
-        points = _points(vertices, chains)
-    except OptipathError as error:
-        raise PathError(*error.faults) from None
-    faults = unknown("bad", bad, BAD)
-    start: Any = 1.0
-    with collecting(faults):
-        start = stored_value("outside", outside, OUTSIDE)
-        faults += faults_of(Use(*part) for part in OUTSIDE.parts("outside", start))
-    if faults:
+    if faults := unknown("bad", bad, BAD):
         raise PathError(*faults)
-    if bad == "mask":
-        chains = apart_where_absorbed(chains)
     try:
+        start = stored_value("outside", outside, OUTSIDE)
+        if faults := faults_of(Use(*part) for part in OUTSIDE.parts("outside", start)):
+            raise ValueFault(*faults)
+        media = entries_of("materials", "one for each vertex", materials)
+        if not media:
+            raise ValueFault("materials must be a sequence of one for each vertex; it is empty")
+        batch: tuple[int, ...] = ()
+        if not isinstance(vertices, (Parameter, VerticesByAngles)):
+            batch = np.shape(as_argument("the array of vertices", vertices))[:-2]
+        real = [_real_again(medium) for medium in media]
+        chains = histories(real, events, ids, lengths, batch)
+        points = _points(vertices, chains)
+        if bad == "mask":
+            chains = apart_where_absorbed(chains)
         path = _composed(points, chains, intensity, start, bad)
         if normals is not None:
             if not isinstance(points, np.ndarray):
@@ -144,7 +142,11 @@ def path_from_vertices(
             if checked is not chains:
                 path = _composed(points, checked, intensity, start, bad)
         elif events is None and not isinstance(points, VerticesByAngles):
-            refuse_doubtful(chains, points, start, _there(points, chains, bad))
+            # Light may not arrive everywhere.
+            there = None if chains.ended is None else ~chains.ended
+            if bad == "mask" and isinstance(points, np.ndarray):
+                there = legs_fit(points)[..., 1:] & (True if there is None else there)
+            refuse_doubtful(chains, points, start, there)
     except OptipathError as error:
         raise PathError(*error.faults) from None
     return path
@@ -157,28 +159,10 @@ def _composed(points: Any, chains: Histories, intensity: Any, start: Any, bad: s
     return path
 
 
-def _there(points: Any, chains: Histories, bad: str) -> Any:
-    """Return at which vertices of which chains light arrives, where that is not all of them."""
-    masks = bad == "mask" and isinstance(points, np.ndarray)
-    there = None if chains.ended is None else ~chains.ended
-    if masks:
-        there = legs_fit(points)[..., 1:] & (True if there is None else there)
-    return there
-
-
-def _batch_of(vertices: Any) -> tuple[int, ...]:
-    """Return the shape of a batch of points, as far as it is known."""
-    if isinstance(vertices, (Parameter, VerticesByAngles)):
-        return ()
-    shape: tuple[int, ...] = np.shape(as_argument("the array of vertices", vertices))
-    return shape[:-2]
-
-
 def _real_again(medium: Any) -> Any:
     """Return a medium that an array with others has made complex as the real one that it is."""
-    of_numpy = isinstance(medium, (np.ndarray, np.generic)) and medium.dtype.kind == "c"
-    is_complex = isinstance(medium, complex) or of_numpy
-    return medium.real if is_complex and not np.any(medium.imag) else medium
+    is_complex = isinstance(medium, (complex, np.ndarray, np.generic)) and np.iscomplexobj(medium)
+    return medium.real if is_complex and not np.any(np.imag(medium)) else medium
 
 
 def _points(vertices: Any, chains: Histories) -> Any:

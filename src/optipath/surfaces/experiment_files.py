@@ -7,8 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import SurfaceError, shown, unknown
-from optipath.paths.files.schema import Faults, checked_table
-from optipath.paths.files.toml import names_in, presets_folder
+from optipath.paths.files.schema import Faults, checked_table, names_in, presets_folder
 from optipath.surfaces.reproduction import ANY_AZIMUTH, MEASURES, Experiment, Measurement, Walks
 from optipath.surfaces.sample import Sample
 from optipath.surfaces.sample_files import described, load_sample, text_and_file

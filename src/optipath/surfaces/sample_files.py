@@ -6,8 +6,16 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.errors import OptipathError, PresetError, SurfaceError, shown
 from optipath.materials.index_domains import INDEX
-from optipath.paths.files.schema import FORMAT, Faults, checked_table
-from optipath.paths.files.toml import file_of, names_in, parsed, presets_folder, text_of
+from optipath.paths.files.schema import (
+    FORMAT,
+    Faults,
+    checked_table,
+    file_of,
+    names_in,
+    parsed,
+    presets_folder,
+    text_of,
+)
 from optipath.paths.files.values import decode, encode, references_in
 from optipath.paths.files.writer import toml_lines
 from optipath.surfaces.height_field import HeightField

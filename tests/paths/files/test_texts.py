@@ -9,7 +9,7 @@ from contextlib import suppress
 import pytest
 
 import optipath as op
-from optipath.paths.files.toml import (
+from optipath.paths.files.schema import (
     file_of,
     names_in,
     presets_folder,

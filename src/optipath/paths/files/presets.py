@@ -5,8 +5,8 @@ from __future__ import annotations
 from numbers import Integral
 from typing import TYPE_CHECKING, Any, Never
 
-from optipath.errors import OptipathError, ParameterError, PresetError, closest, shown, there_are
-from optipath.paths.files.toml import file_of, names_in, presets_folder, text_of
+from optipath.errors import ParameterError, PresetError, closest, shown, there_are
+from optipath.paths.files.schema import file_of, names_in, parsed, presets_folder, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
@@ -33,8 +33,6 @@ def preset_descriptions() -> dict[str, str]:
     >>> preset_descriptions()["glass-slab"][:15]
     'A slab of glass'
     """
-    from optipath.paths.files.toml import parsed  # noqa: PLC0415 - not for every import
-
     files = {name: locate(name) for name in preset_names()}
     return {name: parsed(text_of(f, "preset"), str(f))["description"] for name, f in files.items()}
 
@@ -88,15 +86,15 @@ def load_preset(
             f"a case and values are given by name, as in load_preset({shown(preset)}, "
             f"case={shown(unnamed[0])})"
         )
-    known, faults = _of_case(path, preset, case)
-    path = path.with_defaults(**known) if known else path
-    return _bound(path, values, faults)
+    path = preset_of_case(path, preset, case)
+    return path.bind(**values) if values else path
 
 
-def preset_of_case(path: PathGraph, preset: str | PathLike[str], case: str | int) -> PathGraph:
+def preset_of_case(
+    path: PathGraph, preset: str | PathLike[str], case: str | int | None
+) -> PathGraph:
     """Return the path of a preset with the values of a case as its defaults."""
-    known, faults = _of_case(path, preset, case)
-    return _bound(path.with_defaults(**known), {}, faults)
+    return path if case is None else path.with_defaults(**_values_of(path, preset, case))
 
 
 def bound_preset(
@@ -107,9 +105,10 @@ def bound_preset(
     varied: Collection[str] = (),
 ) -> PathGraph:
     """Return the path of a preset, bound to the values of a case and to others."""
-    known, faults = _of_case(path, preset, case)
+    known = {} if case is None else _values_of(path, preset, case)
     known = {name: value for name, value in known.items() if name not in varied}
-    return _bound(path, beside(path, known, values), faults)
+    values = beside(path, known, values)
+    return path.bind(**values) if values else path
 
 
 def beside(path: PathGraph, known: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
@@ -121,34 +120,17 @@ def beside(path: PathGraph, known: Mapping[str, Any], values: Mapping[str, Any])
     return {name: value for name, value in known.items() if name not in gone} | {**values}
 
 
-def _of_case(
-    path: PathGraph, preset: str | PathLike[str], case: str | int | None
-) -> tuple[Mapping[str, Any], list[str]]:
-    """Return the values of a case, and what is wrong with its name, a sentence."""
-    if case is None:
-        return {}, []
+def _values_of(path: PathGraph, preset: str | PathLike[str], case: str | int) -> Mapping[str, Any]:
+    """Return the values of a case."""
     if isinstance(case, Integral) and not isinstance(case, bool):
         case = int(case)
     name = case if isinstance(case, str) else shown(case)
     if name in path.cases:
-        return path.cases[name].values, []
+        return path.cases[name].values
     cure = there_are([*path.cases])
     if near := closest(name, path.cases):
         cure += f"; did you mean '{near}'?"
-    return {}, [f"case '{name}' is unknown in preset '{preset}'{cure}"]
-
-
-def _bound(path: PathGraph, values: Mapping[str, Any], faults: list[str]) -> PathGraph:
-    """Return a path bound to values; what is wrong with them comes behind other faults."""
-    try:
-        path = path.bind(**values) if values else path
-    except OptipathError as error:
-        if not faults:
-            raise
-        faults += error.faults
-    if faults:
-        raise PresetError(*faults)
-    return path
+    raise PresetError(f"case '{name}' is unknown in preset '{preset}'{cure}")
 
 
 def locate(preset: str | PathLike[str]) -> Path:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from optipath.composer.composer import checked
 from optipath.composer.path_values import Values
-from optipath.composer.validate import validate
 from optipath.composer.wiring import LOOPS
 from optipath.elements.known_elements import element_class
 from optipath.errors import Fault, OptipathError, PathError, PresetError, did_you_mean, shown
@@ -13,12 +13,10 @@ from optipath.kernels.kernel import called
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
 from optipath.paths.files import schema
-from optipath.paths.files.schema import FORMAT, Faults, checked_table, each_key
-from optipath.paths.files.toml import parsed
+from optipath.paths.files.schema import FORMAT, Faults, checked_table, each_key, parsed
 from optipath.paths.files.values import decode, decode_argument, text_or_number, wavelength_names
 from optipath.paths.path_graph import PathGraph
 from optipath.values.cases import Case, name_faults
-from optipath.values.curve_value import CurveValue
 from optipath.values.parameters import Parameter
 from optipath.values.units import USUAL_UNITS, dimension_of, with_article
 from optipath.values.use import checked_later
@@ -74,14 +72,15 @@ def read(document: Table) -> PathGraph:
         faults.refuse(_ENOUGH)
     missing = sections["elements"].keys() - {*path}
     for number, table in enumerate(document.get("links", ())):
-        if not isinstance(table, dict) or missing.isdisjoint(_nodes(table)):
+        ends = [table.get(key) for key in ("from", "to")] if isinstance(table, dict) else []
+        if missing.isdisjoint(str(end).partition(".")[0] for end in ends):
             faults.attempt(f"links[{number}]", _connect, path, table, parameters)
             faults.refuse(_ENOUGH)
     faults.refuse()
     values = Values(path.graph)
     faults += _unit_faults(values, parameters)
     faults.refuse()
-    validate(path.graph, values)
+    checked(values)
     faults += [
         f"parameter '{name}' is declared, but no element takes it"
         for name in parameters
@@ -98,10 +97,9 @@ def read(document: Table) -> PathGraph:
 def _unit_faults(values: Values, parameters: Mapping[str, Parameter]) -> list[Fault]:
     """Return a fault for each parameter that stands where another unit belongs, or any."""
     faults: dict[str, Fault] = {}
-    for use in values.uses:
-        name = use.value.name if isinstance(use.value, Parameter) else ""
+    for use in values.parameter_uses:
         dimension = use.domain.dimension
-        if name not in parameters or isinstance(use.value, CurveValue):
+        if (name := use.value.name) not in parameters:
             continue
         if dimension_of(unit := parameters[name].unit) != dimension:
             request = with_article(dimension) if dimension else "a pure number"
@@ -136,8 +134,10 @@ def _parameter(name: str, table: Any, of_light: bool) -> Parameter:  # noqa: FBT
         for word, raw in table.get("words", {}).items()
     }
     if "range" in table:
-        ends = faults.attempt(".range", _limits, table["range"], unit)
-        keys |= zip(("minimum", "maximum"), ends or (), strict=False)
+        if len(ends := table["range"]) != 2:
+            faults.append(Fault(f"'range' must have two ends, not {len(ends)}", place=".range"))
+        limits = faults.attempt(".range", lambda: [text_or_number(end, unit) for end in ends])
+        keys |= zip(("minimum", "maximum"), limits or (), strict=False)
     default = table.get("default")
     if isinstance(default, (list, dict)):
         bare = kind(name, None, unit, **keys)
@@ -150,13 +150,6 @@ def _parameter(name: str, table: Any, of_light: bool) -> Parameter:  # noqa: FBT
         wrong = f"parameter '{name}' has values in {result.unit}, but no unit"
         raise PresetError(Fault(wrong, f'write unit = "{result.unit}"'))
     return result
-
-
-def _limits(raw: list[Any], unit: str) -> list[Any]:
-    """Return the limits of a parameter."""
-    if len(raw) != 2:
-        raise PresetError(f"'range' must have two ends, not {len(raw)}")
-    return [text_or_number(end, unit) for end in raw]
 
 
 def _add(path: PathGraph, name: str, table: Any, parameters: Mapping[str, Parameter]) -> None:
@@ -184,11 +177,6 @@ def read_element(
 def _frame(port: str, axes: Any) -> Frame:
     del port
     return Frame(**checked_table(axes, ("x", "y", "z", "rounding"), "xyz"))
-
-
-def _nodes(table: Table) -> list[str]:
-    """Return the nodes at both ends of a link."""
-    return [str(table.get(key)).partition(".")[0] for key in ("from", "to")]
 
 
 def _connect(path: PathGraph, table: Any, parameters: Mapping[str, Parameter]) -> None:

@@ -1,16 +1,21 @@
-"""Values in preset files: ``"30 deg"``, ``1.5``, ``"$name"``, ``{n = 1, k = 2}``."""
+"""Values in preset files, read and written: ``"30 deg"``, ``"$name"``, ``{material = "gold"}``."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
+from functools import reduce
+from inspect import Parameter as Argument
+from inspect import signature
 from itertools import chain, repeat
+from operator import add, sub
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.elements.vertex_chain import VerticesByAngles, VerticesDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
+from optipath.materials.crystals import CRYSTALS, Crystal
+from optipath.materials.formulas import EVERYWHERE, REAL, Cauchy, Sellmeier
 from optipath.materials.index_domains import (
     FOLLOWED_OUTSIDE,
     FOLLOWS,
@@ -22,38 +27,72 @@ from optipath.materials.index_domains import (
     LengthsDomain,
     OutsideDomain,
 )
-from optipath.materials.material import K, Material
+from optipath.materials.material import PARTS, K, Material
+from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
 from optipath.materials.quantities import AMPLITUDE, ANGLE, SpectralDomain
-from optipath.paths.files.curve_tables import (
-    FORMS,
-    decode_curve,
-    is_curve,
-    material_table,
-    number_table,
-)
+from optipath.materials.spectrum import Spectrum
+from optipath.materials.tables import PageCurve, Tabulated
 from optipath.paths.files.schema import Faults, checked_table, each_entry, each_key, number_of
-from optipath.paths.files.spectrum_tables import decode_spectrum
-from optipath.values.arrays import array_of
-from optipath.values.curve_value import CurveValue
-from optipath.values.domains import (
-    Choice,
-    Domain,
+from optipath.paths.files.spectrum_tables import (
+    sampled_curve,
+    spectrum_of,
+    spectrum_table,
+    written_wavelengths,
 )
+from optipath.values.arrays import array_of
+from optipath.values.curve import CurveSum, WavelengthRange
+from optipath.values.curve_value import CurveValue, curve_values
+from optipath.values.domains import Choice, Domain
 from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
 from optipath.values.use import axes_for
+from optipath.values.wavelength import WAVELENGTH, Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
+    from optipath.materials.formulas import FormulaCurve
+    from optipath.values.curve import Curve
     from optipath.values.use import Use
+
+    Parameters = Mapping[str, Parameter]
 
 
 _AFFINE = {"parameter": str, "scale": object, "offset": object}
 """The keys of a multiple of a parameter with an offset."""
 
+_ANGLES, _BACKWARDS = ("incidences", "turns"), "backwards"
+"""The keys of a chain of vertices by angles."""
 
-def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+_FORMULAS: dict[str, type[FormulaCurve]] = {
+    "sellmeier": Sellmeier,
+    "cauchy": Cauchy,
+    "drude_lorentz": DrudeLorentz,
+    "tauc_lorentz": TaucLorentz,
+}
+"""The formulas by the keys under which their coefficients stand."""
+
+_MATERIAL, _SAMPLES, _CRYSTAL = "material", "wavelengths", "crystal"
+_SUM, _DIFFERENCE = "sum", "difference"
+_TEXTS = ("page", "interpolation", "extrapolate")
+_CURVES = {
+    _MATERIAL: (*_TEXTS, *PARTS),
+    _SAMPLES: ("unit", "interpolation", "extrapolate", "name"),
+    **dict.fromkeys(_FORMULAS, ("name", "span")),
+    _CRYSTAL: (),
+    _SUM: (),
+    _DIFFERENCE: (),
+}
+"""The keys by which a table is known for a curve, and those that may stand beside them."""
+
+_WHEN = "wavelength"
+"""The key, and the name of the parameter that is taken where it is left out."""
+
+_OF_NUMBER = ("part", "scale", "offset")
+_TEXT_KEYS = {_MATERIAL, _CRYSTAL, "name", "unit", *_TEXTS}
+
+
+def decode(raw: Any, domain: Domain, parameters: Parameters) -> Any:
     """Return the value of an element's field, in base units.
 
     >>> from optipath.materials.quantities import REAL
@@ -73,15 +112,14 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     return _number(raw, domain.unit)
 
 
-def _of_table(raw: dict[str, Any], domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
-    one = partial(decode, parameters=parameters)
+def _of_table(raw: dict[str, Any], domain: Domain, parameters: Parameters) -> Any:
     if isinstance(domain, SpectralDomain) and "parameter" not in raw:
-        return decode_spectrum(raw, parameters, one)
-    if is_curve(raw):
-        return decode_curve(raw, domain, parameters, one)
+        return _spectrum(raw, parameters)
+    if not raw.keys().isdisjoint(_CURVES):
+        return _curve(raw, domain, parameters)
     if raw.keys() & _AFFINE.keys():
         return _affine(raw, domain, parameters)
-    if isinstance(domain, (IndexDomain, OutsideDomain)):
+    if _is_of_index(domain):
         parts = _parts(raw, domain, parameters)
         if parts.keys() == {"n"} and isinstance(parts["n"], list):
             return np.array(parts["n"])
@@ -89,13 +127,24 @@ def _of_table(raw: dict[str, Any], domain: Domain, parameters: Mapping[str, Para
     if domain.complex_parts:
         return _complex(_parts(raw, domain, {}))
     if isinstance(domain, VerticesDomain):
-        return chain_by_angles(raw, partial(one, domain=ANGLE))
+        checked_table(raw, {**dict.fromkeys(_ANGLES, list), _BACKWARDS: bool})
+        incidences, turns = (
+            tuple(
+                each_entry(raw.get(key, []), lambda one: decode(one, ANGLE, parameters), f".{key}")
+            )
+            for key in _ANGLES
+        )
+        return VerticesByAngles(incidences, turns, raw.get(_BACKWARDS, False))
     return number_of(raw, domain.unit)  # Which it is not.
 
 
-def _of_text(raw: str, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+def _is_of_index(domain: Domain) -> bool:
+    return isinstance(domain, (IndexDomain, OutsideDomain))
+
+
+def _of_text(raw: str, domain: Domain, parameters: Parameters) -> Any:
     if "$" in raw:
-        return referred(raw, parameters)
+        return _referred(raw, parameters)
     try:
         return domain.parse(raw)
     except OptipathError:
@@ -125,35 +174,7 @@ def text_or_number(raw: Any, unit: str) -> Any:
     return raw if isinstance(raw, str) else _number(raw, unit)
 
 
-def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex_parts) -> Any:
-    """Write a value so that decoding gives it back."""
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, CurveValue):
-        return number_table(value, unit, encode)
-    if isinstance(value, Parameter):
-        return _parameter(value, unit)
-    if value is FOLLOWS:
-        return FOLLOWS.word
-    if isinstance(value, Material):
-        return material_table(value, encode)
-    if isinstance(value, VerticesByAngles):
-        return table_of_angles(value, lambda angle: encode(angle, ANGLE.unit))
-    if isinstance(value, str):
-        return value
-    if isinstance(value, complex) or (isinstance(value, np.ndarray) and value.dtype.kind == "c"):
-        number = np.asarray(value)
-        return dict(zip(complex_parts, (number.real.tolist(), number.imag.tolist()), strict=True))
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if isinstance(value, (list, tuple)):
-        return [encode(entry, unit) for entry in value]
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return format_quantity(value, unit) if unit and np.isfinite(value) else value
-    raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
-
-
-def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
+def _referred(raw: str, parameters: Parameters) -> Parameter:
     """Return the parameter that ``"$name"`` or ``"-$name"`` stands for."""
     sign, _, name = raw.partition("$")
     if sign in ("", "-") and name in parameters:
@@ -167,7 +188,7 @@ def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
     )
 
 
-def _affine(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Parameter:
+def _affine(raw: Any, domain: Domain, parameters: Parameters) -> Parameter:
     """Return a multiple of a parameter with an offset that is written as a table."""
     checked_table(raw, _AFFINE, ("parameter",))
     faults, name = Faults(), raw["parameter"]
@@ -183,23 +204,11 @@ def _affine(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Pa
     return replace(parameters[name], **numbers)
 
 
-def _parameter(value: Parameter, unit: str) -> Any:
-    """Write a parameter, or a multiple of one with an offset."""
-    if value.is_signed:
-        return f"{'-' * value.is_negative}${value.name}"
-    row = {"parameter": value.name}
-    if value.scale != 1.0:
-        row["scale"] = encode(value.scale, "")
-    if value.offset:
-        row["offset"] = encode(value.offset, unit)
-    return row
-
-
-def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
+def _parts(raw: Any, domain: Domain, parameters: Parameters) -> dict[str, Any]:
     """Return the parts of a complex number or a material that is written as a table."""
     names = domain.complex_parts or INDEX.complex_parts
     of_index = names == INDEX.complex_parts
-    checked_table(raw, (*names, *FORMS) if of_index else names, names[:1])
+    checked_table(raw, (*names, *_CURVES) if of_index else names, names[:1])
     domains = dict.fromkeys(names, Domain(domain.name)) | ({"k": K} if of_index else {})
     parts = {key: raw[key] for key in domains if key in raw}
     return each_key(parts, lambda key, part: decode(part, domains[key], parameters))
@@ -235,7 +244,7 @@ def entry_domain(domain: Domain) -> Domain | None:
     return LENGTH_OF_LAYER if isinstance(domain, LengthsDomain) else None
 
 
-def _list(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> list[Any]:
+def _list(raw: Any, domain: Domain, parameters: Parameters) -> list[Any]:
     """Return the values of a list of indices, or of lengths."""
     of_indices, each = isinstance(domain, IndicesDomain), entry_domain(domain) or domain
     if not isinstance(raw, list):
@@ -246,6 +255,161 @@ def _list(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> list
     return each_entry(pairs, lambda pair: decode(pair[0], pair[1], parameters))
 
 
+def _spectrum(raw: Mapping[str, Any], parameters: Parameters) -> Any:
+    """Return what stands for a spectrum at the wavelength of a run."""
+    faults = Faults()
+    when = faults.attempt("", _wavelength, raw, parameters)
+    spectrum = faults.attempt("", spectrum_of, {key: raw[key] for key in raw if key != _WHEN})
+    faults.refuse()
+    return spectrum.at(when)  # type: ignore[union-attr] # none without faults
+
+
+def _wavelength(raw: Mapping[str, Any], parameters: Parameters) -> Any:
+    """Return the wavelength at which a curve is read."""
+    if _WHEN not in raw:
+        return parameters.get(_WHEN) or Wavelength()
+    return _at_key(_WHEN, raw, WAVELENGTH, parameters)
+
+
+def _at_key(key: str, raw: Mapping[str, Any], domain: Domain, parameters: Parameters) -> Any:
+    """Return the value of a key of a table, or raise with its place."""
+    return each_key({key: raw[key]}, lambda _, value: decode(value, domain, parameters))[key]
+
+
+def _curve(raw: Mapping[str, Any], domain: Domain, parameters: Parameters) -> Any:
+    """Return what stands for a table of what depends on the wavelength."""
+    form, *others = [key for key in _CURVES if key in raw]
+    if others:
+        raise PresetError(f"'{form}' and '{others[0]}' say one thing twice; leave one of them out")
+    if domain.tail:
+        raise PresetError(
+            f"'{form}' gives one number, but several are asked for that belong together; give "
+            f"them for each wavelength, as a parameter"
+        )
+    of_index = _is_of_index(domain)
+    if form in (_SUM, _DIFFERENCE):
+        if of_index:
+            raise PresetError(f"'{form}' gives one number; write {{ n = {{ {form} = ... }} }}")
+        return _placed(_together(raw, form, domain, parameters), raw, domain, parameters)
+    if of_index:
+        return Material(**_numbers(raw, form, domain, parameters))
+    own = {key: raw[key] for key in raw if key not in _OF_NUMBER}
+    results = _numbers(own, form, domain, parameters)
+    part = raw.get("part", "k" if domain is K and "k" in results else next(iter(results)))
+    if part not in results:
+        raise PresetError(f"'part' is '{part}', but the table has {' and '.join(results)}")
+    return _placed(results[part], raw, domain, parameters)
+
+
+def _numbers(
+    raw: Mapping[str, Any], form: str, domain: Domain, parameters: Parameters
+) -> dict[str, Any]:
+    """Return the numbers that a table gives, by the names of the parts of its curve."""
+    of_index, keys = _is_of_index(domain), [form, *_CURVES[form]]
+    columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
+    if form == _SAMPLES:
+        keys += columns
+    elif form in _FORMULAS and of_index:
+        keys.append("k")
+    known = {key: str if key in _TEXT_KEYS else object for key in (*keys, _WHEN)}
+    checked_table(raw, known, ("n",) if form == _SAMPLES and of_index else ())
+    when = _wavelength(raw, parameters)
+    if form == _MATERIAL:
+        parts = {key: raw[key] for key in PARTS if key in raw}
+        numbers = each_key(parts, lambda key, part: decode(part, PARTS[key], parameters))
+        texts: dict[str, Any] = {key: raw[key] for key in _TEXTS if key in raw}
+        named = Material.named(raw[_MATERIAL], wavelength=when, **texts, **numbers)
+        return {"n": named.n, "k": named.k}
+    if form == _CRYSTAL:
+        return {_CRYSTAL: _number_of_crystal(raw[_CRYSTAL], domain, when)}
+    # The k of a material may stand beside a formula or samples, and be none of it.
+    has_own_k = of_index and "k" in raw and not (form == _SAMPLES and isinstance(raw["k"], list))
+    if form == _SAMPLES:
+        curve: Curve = sampled_curve(raw, ("n",) if has_own_k else columns, domain)
+    else:
+        curve = _formula(raw, form, parameters)
+    if not isinstance(when, Parameter):
+        WavelengthRange.of(curve).check(_WHEN, when)
+    results = dict(zip(curve.parts, curve_values(curve, when), strict=True))
+    if has_own_k:
+        if "k" in results:
+            raise PresetError(f"'{form}' gives k as well; leave k out")
+        results["k"] = _at_key("k", raw, K, parameters)
+    return results
+
+
+def _formula(raw: Mapping[str, Any], form: str, parameters: Parameters) -> Curve:
+    """Return the curve of a table with a formula."""
+
+    def nested(entry: Any, domain: Domain) -> Any:
+        if not isinstance(entry, list):
+            return decode(entry, domain, parameters)
+        return each_entry(entry, lambda one: nested(one, domain))
+
+    known, table = _coefficients_of(form), raw[form]
+    needed = [name for name, usual in known.items() if usual is Argument.empty]
+    each_key({form: table}, lambda _, coefficients: checked_table(coefficients, [*known], needed))
+    arguments = each_key(table, lambda _, entry: nested(entry, REAL), f".{form}")
+    span = {key: raw[key] for key in ("span",) if key in raw}
+    arguments |= each_key(span, lambda _, ends: nested(ends, WAVELENGTH))
+    return _FORMULAS[form](raw.get("name", f"the formula '{form}'"), **arguments)
+
+
+def _coefficients_of(form: str) -> dict[str, Any]:
+    """Return the names of the coefficients of a formula, with what they are by default."""
+    arguments = signature(_FORMULAS[form]).parameters.values()
+    return {a.name: a.default for a in arguments if a.name not in ("label", "span")}
+
+
+_QUANTITIES = {"": "birefringence", "angle per length": "rotatory_power"}
+"""What a crystal gives for a dimension."""
+
+
+def _number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
+    """Return what a crystal gives where one number stands."""
+    crystal = Crystal.named(raw, wavelength)
+    request = "" if _is_of_index(domain) else _QUANTITIES.get(domain.dimension, "")
+    result = getattr(crystal, request, None)
+    if result is None:
+        raise PresetError(
+            f"{crystal.label} gives no {domain.name}; it stands for a birefringence, and quartz "
+            f"for a rotatory power"
+        )
+    return result
+
+
+def _together(raw: Mapping[str, Any], form: str, domain: Domain, parameters: Parameters) -> Any:
+    """Return a sum or a difference of numbers by wavelength."""
+    checked_table(raw, (form, *_OF_NUMBER[1:]))
+    terms = raw[form]
+    if not isinstance(terms, list) or len(terms) < 2 or (form == _DIFFERENCE and len(terms) > 2):
+        many = "two tables" if form == _DIFFERENCE else "two tables or more"
+        raise PresetError(f"'{form}' must be a list of {many}, not {shown(terms)}")
+    results = each_entry(terms, lambda term: decode(term, domain, parameters), f".{form}")
+    return reduce(sub if form == _DIFFERENCE else add, results)
+
+
+def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, parameters: Parameters) -> Any:
+    """Return a multiple of a value with an offset, where the table says so."""
+    if "scale" in raw:
+        value = _at_key("scale", raw, Domain("scale"), parameters) * value
+    if "offset" in raw:
+        value = value + _at_key("offset", raw, domain, parameters)
+    return value
+
+
+def _in(raw: Any) -> Iterator[Any]:
+    """Go through a part of a document and all that stands in it."""
+    left = [raw]
+    while left:
+        entry = left.pop()
+        yield entry
+        if isinstance(entry, dict):
+            left += entry.values()
+        elif isinstance(entry, list):
+            left += entry
+
+
 def references_in(raw: Any) -> set[str]:
     """Return the names of the parameters that a part of a document refers to.
 
@@ -253,20 +417,12 @@ def references_in(raw: Any) -> set[str]:
     >>> sorted(references_in([mirror, "-$phi"]))
     ['n1', 'phi', 'rho']
     """
-    result, left = set(), [raw]
-    while left:
-        entry = left.pop()
-        if isinstance(entry, str):
-            sign, dollar, name = entry.partition("$")
-            if dollar and sign in ("", "-"):
-                result.add(name)
-        elif isinstance(entry, dict):
-            left += entry.values()
-            multiple = entry.get("parameter")
-            if isinstance(multiple, str):
-                result.add(multiple)
-        elif isinstance(entry, list):
-            left += entry
+    result = set()
+    for entry in _in(raw):
+        if isinstance(entry, str) and entry.startswith(("$", "-$")):
+            result.add(entry.partition("$")[2])
+        elif isinstance(entry, dict) and isinstance(name := entry.get("parameter"), str):
+            result.add(name)
     return result
 
 
@@ -276,43 +432,173 @@ def wavelength_names(raw: Any) -> set[str]:
     >>> sorted(wavelength_names([{"wavelength": "$lam"}, {"thickness": "$d"}]))
     ['lam', 'wavelength']
     """
-    result, left = {"wavelength"}, [raw]
-    while left:
-        entry = left.pop()
-        if isinstance(entry, dict):
-            when = entry.get("wavelength")
-            name = when.get("parameter") if isinstance(when, dict) else when
-            if isinstance(name, str):
-                result.add(name.lstrip("-").lstrip("$"))
-            left += entry.values()
-        elif isinstance(entry, list):
-            left += entry
-    return result
+    whens = [entry.get(_WHEN) for entry in _in(raw) if isinstance(entry, dict)]
+    names = [when.get("parameter") if isinstance(when, dict) else when for when in whens]
+    return {_WHEN, *(name.lstrip("-").lstrip("$") for name in names if isinstance(name, str))}
 
 
-_ANGLES = ("incidences", "turns")
-_BACKWARDS = "backwards"
+def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex_parts) -> Any:
+    """Write a value so that decoding gives it back."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, CurveValue):
+        table = _row(value, unit) | _part(value.curve, value.place)
+        return table | _multiple(value, unit)
+    if isinstance(value, Parameter):
+        if value.is_signed:
+            return f"{'-' * value.is_negative}${value.name}"
+        return {"parameter": value.name} | _multiple(value, unit)
+    if value is FOLLOWS:
+        return FOLLOWS.word
+    if isinstance(value, Material):
+        return _material(value)
+    if isinstance(value, VerticesByAngles):
+        table = {key: encode(getattr(value, key), ANGLE.unit) for key in _ANGLES}
+        return table | ({_BACKWARDS: True} if value.backwards else {})
+    if isinstance(value, str):
+        return value
+    if isinstance(value, complex) or (isinstance(value, np.ndarray) and value.dtype.kind == "c"):
+        number = np.asarray(value)
+        return dict(zip(complex_parts, (number.real.tolist(), number.imag.tolist()), strict=True))
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
+        return [encode(entry, unit) for entry in value]
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return format_quantity(value, unit) if unit and np.isfinite(value) else value
+    raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
 
 
-def chain_by_angles(raw: Mapping[str, Any], decoded: Callable[[Any], Any]) -> VerticesByAngles:
-    """Return the chain of a table.
-
-    >>> chain_by_angles({"incidences": [0.5], "backwards": True}, float)
-    VerticesByAngles(incidences=(0.5,), turns=(), backwards=True)
-    """
-    schema = {**dict.fromkeys(_ANGLES, list), _BACKWARDS: bool}
-    checked_table(raw, schema)
-    incidences, turns = (tuple(each_entry(raw.get(key, []), decoded, f".{key}")) for key in _ANGLES)
-    return VerticesByAngles(incidences, turns, raw.get(_BACKWARDS, False))
+def _multiple(value: Parameter, unit: str) -> dict[str, Any]:
+    """Return the keys of a scale and an offset, where there are such."""
+    scale = {} if value.scale == 1.0 else {"scale": encode(value.scale, "")}
+    return scale | ({"offset": encode(value.offset, unit)} if value.offset else {})
 
 
-def table_of_angles(chain: VerticesByAngles, encoded: Callable[[Any], Any]) -> dict[str, Any]:
-    """Return the table of a chain.
+def _material(material: Material) -> dict[str, Any]:
+    """Return the table of a material: of its curve, or of n and k apart."""
+    n, k = material.n, material.k
+    if isinstance(n, CurveValue) and _are_parts(n, k):
+        return _row(n)
+    # A page with n or k alone, the other being given beside its name.
+    for part, value in (("n", n), ("k", k)):
+        if _is_plain(value) and isinstance(curve := value.curve, PageCurve):
+            apart = isinstance(n, CurveValue) and isinstance(k, CurveValue)
+            apart = apart and _is_usual_part(curve, part)
+            if curve.asked and curve.parts == (part,) and not apart:
+                own = _own_part(curve, n, k)
+                return _row(value) | {key: encode(each, "") for key, each in own.items()}
+    return {"n": encode(n, ""), "k": encode(k, "")}
 
-    >>> table_of_angles(VerticesByAngles((0.5, 0.6), (0.1,)), str)
-    {'incidences': ['0.5', '0.6'], 'turns': ['0.1']}
-    """
-    table: dict[str, Any] = {
-        key: [encoded(angle) for angle in getattr(chain, key)] for key in _ANGLES
-    }
-    return table | {_BACKWARDS: True} if chain.backwards else table
+
+def _are_parts(n: CurveValue, k: Any) -> bool:
+    """Tell whether n and k are those of one curve, at the same wavelength."""
+    if not _is_plain(n) or n.curve.parts[n.place] != "n":
+        return False
+    if not isinstance(k, CurveValue):
+        of_page = isinstance(n.curve, PageCurve)
+        return not of_page and "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
+    same = k.curve == n.curve and k.depends_on == n.depends_on and k.curve.parts[k.place] == "k"
+    return same and _is_plain(k)
+
+
+def _is_plain(value: Any) -> bool:
+    """Tell whether a value follows from a curve, and is no multiple of what does."""
+    return isinstance(value, CurveValue) and value.is_signed and not value.is_negative
+
+
+def _own_part(curve: PageCurve, n: Any, k: Any) -> dict[str, Any]:
+    """Return which of n and k a table has to say beside the name of a material."""
+    own = {part: value for part, value in (("n", n), ("k", k)) if part not in curve.parts}
+    try:
+        usual = Material.named(**curve.asked)
+    except OptipathError:
+        return own  # Without them, it is no material.
+    same = isinstance(usual.n, CurveValue) and usual.n.curve.span == curve.span
+    return {} if same and own == {"k": 0.0} == {"k": usual.k} else own
+
+
+def _is_usual_part(curve: PageCurve, part: str) -> bool:
+    """Tell whether a name by itself gives a curve: an index without k may reach further."""
+    try:
+        usual = getattr(Material.named(**curve.asked), part)
+    except OptipathError:
+        return False
+    return isinstance(usual, CurveValue) and usual.curve == curve
+
+
+def _part(curve: Curve, place: int) -> dict[str, str]:
+    """Return the key of a part, n or k, where a curve has several."""
+    alone = len(curve.parts) == 1 and not isinstance(curve, PageCurve)
+    return {} if alone else {"part": curve.parts[place]}
+
+
+def _row(value: CurveValue, unit: str = "") -> dict[str, Any]:
+    """Return the table of the curve that a value follows from."""
+    return _table(value.curve, value.depends_on, unit)
+
+
+def _table(curve: Curve, depends_on: tuple[Any, ...], unit: str) -> dict[str, Any]:
+    crystal = _crystal_of(curve)
+    form = next((form for form, of in _FORMULAS.items() if type(curve) is of), "")
+    if crystal:
+        table: dict[str, Any] = {_CRYSTAL: crystal}
+    elif isinstance(curve, CurveSum):
+        return _sum(curve, depends_on, unit)
+    elif isinstance(curve, Spectrum):
+        table = spectrum_table(curve)
+    elif isinstance(curve, Tabulated):
+        table = _samples(curve, unit)
+    elif isinstance(curve, PageCurve) and curve.asked:
+        table = {_MATERIAL if key == "name" else key: text for key, text in curve.asked.items()}
+    elif form:
+        given = {name: getattr(curve, name) for name in _coefficients_of(form)}
+        numbers = {name: encode(value, "") for name, value in given.items() if value is not None}
+        table = {form: numbers, "name": curve.label}
+        if curve.span != EVERYWHERE:
+            table["span"] = [encode(end, WAVELENGTH.unit) for end in curve.span]
+    else:
+        raise PresetError(f"{curve.label} has no form in a preset file; give samples of it")
+    return table | _written_wavelength(depends_on[0])
+
+
+def _crystal_of(curve: Curve) -> str:
+    """Return the name of the crystal that a curve is of; ``""`` for any other."""
+    for name in CRYSTALS:
+        crystal = Crystal.named(name)
+        for quantity in _QUANTITIES.values():
+            if getattr(getattr(crystal, quantity), "curve", None) == curve:
+                return name
+    return ""
+
+
+def _samples(curve: Tabulated, unit: str) -> dict[str, Any]:
+    table = written_wavelengths(curve.wavelengths)
+    for part, column in zip(curve.parts, curve.columns, strict=True):
+        key, of = ("values", unit) if part == "value" else (part, "")
+        table[key] = encode(np.asarray(column), of)
+    if curve.interpolation != "linear":
+        table["interpolation"] = curve.interpolation
+    if curve.extrapolate:
+        table["extrapolate"] = curve.extrapolate
+    return table | {"name": curve.label}
+
+
+def _sum(curve: CurveSum, depends_on: tuple[Any, ...], unit: str) -> dict[str, Any]:
+    """Return the table of a sum; what is added stands with its first term."""
+    when, *left = depends_on
+    terms = []
+    for factor, one, place in curve.terms:
+        count = len(one.arguments())
+        own, left = (when, *left[:count]), left[count:]
+        table = _table(one, own, unit) | _part(one, place)
+        terms.append(table | ({"scale": factor} if factor != 1.0 else {}))
+    if curve.constant:
+        terms[0]["offset"] = encode(curve.constant, unit)
+    return {_SUM: terms}
+
+
+def _written_wavelength(argument: Any) -> dict[str, Any]:
+    """Return the key of a wavelength; none for the parameter of that name."""
+    usual = isinstance(argument, Parameter) and argument.name == _WHEN == argument.quantity
+    return {} if usual else {_WHEN: encode(argument, WAVELENGTH.unit)}

@@ -14,9 +14,9 @@ from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean
 from optipath.materials.index_domains import INDEX, IndexDomain
 from optipath.materials.quantities import ANGLE
+from optipath.paths.binding import choice_faults
 from optipath.paths.files.schema import FORMAT, Faults
 from optipath.paths.files.values import encode, entry_domain, wavelength_names
-from optipath.paths.place_choice import choice_faults
 from optipath.values.cases import name_faults
 from optipath.values.domains import Choice
 from optipath.values.parameters import Parameter
