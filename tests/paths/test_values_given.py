@@ -15,7 +15,7 @@ from wired import wired
 MALUS, PLAN = op.load_preset("malus"), op.load_preset("malus").compose()
 ASKED = PLAN.run, PLAN.run_all, PLAN.certificate
 D, N_K = op.Parameter("d"), op.Material(1.2, 2.0)
-BOTH = "a real number of 0 or more at source.intensity, and a real angle in deg at polarizer.angle"
+BOTH = "polarizer.angle (a real angle in deg) differs from that at source.intensity (a real number"
 K_IS_KNOWN = op.Interface(op.Material(op.Parameter("n", 1.5, minimum=0.0), 0.5), 0.3)
 
 

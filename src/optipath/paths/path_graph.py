@@ -26,18 +26,6 @@ from optipath.errors import (
 from optipath.materials.named_materials import is_by_wavelength, is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
-from optipath.paths.editing import (
-    add,
-    append,
-    as_chain,
-    check_port,
-    connect,
-    disconnect,
-    edit,
-    element_at,
-    join,
-    name_by_kind,
-)
 from optipath.paths.reversed import reversed_graph
 from optipath.values.arrays import entries_of, same
 from optipath.values.cases import Case
@@ -143,13 +131,13 @@ class PathGraph(Chainable):
         PathError
             If there is no such node.
         """
-        return element_at(self._graph, name)
+        return editing.element_at(self._graph, name)
 
     def __getitem__(self, name: str) -> Node:
         name, dot, port = name.partition(".") if isinstance(name, str) else (name, "", "")
         element = self.element(name)
         if dot:
-            check_port(element, name, port, (*element.inputs, *element.outputs))
+            editing.check_port(element, name, port, (*element.inputs, *element.outputs))
         return Node(self, name, port)
 
     def __contains__(self, name: object) -> bool:
@@ -192,7 +180,7 @@ class PathGraph(Chainable):
             If the name is taken or not allowed, the element is no Element, or a port
             does not exist.
         """
-        add(self._graph, name, element, frames)
+        editing.add(self._graph, name, element, frames)
         self._changed()
         return Node(self, name)
 
@@ -217,7 +205,7 @@ class PathGraph(Chainable):
             If a node or port does not exist, runs the other way, or the link is there
             already.
         """
-        connect(self._graph, leaves, enters, azimuth, tap)
+        editing.connect(self._graph, leaves, enters, azimuth, tap)
         self._changed()
 
     def disconnect(self, leaves: str, enters: str | None = None) -> None:
@@ -234,7 +222,7 @@ class PathGraph(Chainable):
         PathError
             If there is no such link, or there are several.
         """
-        disconnect(self._graph, leaves, enters)
+        editing.disconnect(self._graph, leaves, enters)
         self._changed()
 
     def insert(
@@ -370,7 +358,7 @@ class PathGraph(Chainable):
         if twice := sorted(self.cases.keys() & others.cases.keys()):
             raise PathError(f"case '{twice[0]}' stands on both sides of >>; take one of them out")
         path = copy(self)
-        names = join(path._graph, others._graph)
+        names = editing.join(path._graph, others._graph)
         path.description = self.description or others.description
         for name, case in others.cases.items():
             published = {names.get(end, end): light for end, light in case.published.items()}
@@ -812,18 +800,18 @@ class PathGraph(Chainable):
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        if chain := as_chain(self._graph):
+        if chain := editing.as_chain(self._graph):
             return f"<{type(self).__name__}: {' >> '.join(chain)}>"
         nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
         return f"<{type(self).__name__} with {nodes} nodes and {links} links>"
 
     def _edit(self, change: Callable[..., None], *arguments: Any) -> None:
-        edit(self._graph, lambda graph: change(graph, *arguments))
+        editing.edit(self._graph, lambda graph: change(graph, *arguments))
         self._changed()
 
     def _append(self, port: str, others: PathGraph) -> str:
         """Add other elements behind a port, and return the name of the last of them."""
-        last = append(self._graph, port, others._graph)
+        last = editing.append(self._graph, port, others._graph)
         self._changed()
         return last
 
@@ -896,7 +884,7 @@ def path_of(first: Any) -> PathGraph:
     if isinstance(first, NamedElement):
         path.add(first.name, first.element)
     elif isinstance(first, Element):
-        path.add(name_by_kind(first), first)
+        path.add(editing.name_by_kind(first), first)
     else:
         raise PathError(
             f"{first} stands in a path already; add there what light passes before, and write "
