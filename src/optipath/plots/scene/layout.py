@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.composer.followed_values import with_followed
+from optipath.composer.media import with_followed
 from optipath.composer.path_values import Values
 from optipath.composer.placement import azimuth_of
 from optipath.composer.wiring import Wiring
