@@ -6,8 +6,12 @@ import pytest
 import optipath as op
 from optipath.errors import OptipathError, ParameterError
 from optipath.plots import curve, quantity_map, reflection
-from optipath.plots.light_at_detector import START, fine_steps
-from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
+from optipath.plots.light_at_detector import (
+    START,
+    drawn_quantities,
+    drawn_quantity,
+    fine_steps,
+)
 from optipath.plots.parameter_curves import open_at_jumps
 from optipath.plots.reflection_curves import marked_angles, reflected
 from pictures import faults_of, texts_of

@@ -9,8 +9,7 @@ import numpy as np
 from optipath.errors import OptipathError, listed, unknown
 from optipath.light.light import Light
 from optipath.plots.axes import own_axes
-from optipath.plots.light_at_detector import AlongAxis
-from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
+from optipath.plots.light_at_detector import AlongAxis, drawn_quantities, drawn_quantity
 from optipath.plots.parameter_curves import draw_curves, draw_map, units_of
 from optipath.sweeps.datasets import CAPITALIZED, DETECTOR
 from optipath.values.units import in_unit
@@ -20,7 +19,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from optipath.plots.light_quantities import DrawnQuantity
+    from optipath.plots.light_at_detector import DrawnQuantity
     from optipath.values.precision import Numbers
 
 

@@ -64,13 +64,6 @@ def ellipse(
     -------
     Axes
 
-    Raises
-    ------
-    OptipathError
-        If there are too many, or they and their names do not fit.
-    ParameterError
-        If JAX traces the light.
-
     Examples
     --------
     >>> import optipath as op

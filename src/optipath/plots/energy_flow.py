@@ -47,7 +47,6 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     Parameters
     ----------
     path : PathGraph
-        The path.
     ax : Axes, optional
         Where; a figure of its own by default, ``.figure`` of what is returned.
     **values : float or str
@@ -56,11 +55,6 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     Returns
     -------
     Axes
-
-    Raises
-    ------
-    OptipathError
-        If values do not fit, or are many.
 
     Examples
     --------
@@ -212,23 +206,20 @@ class EnergyPlaces:
         """Return the outline of a link, or its middle, there and back, where it has no width."""
         width = 0.0 if link.tap else link.power
         row, end_row = rows[link.start], rows[link.end]
-        x = self.left[row.lane] + _before(link, [one for one in links if one.start == link.start])
+        out = self.left[row.lane] + _before(link, [e for e in links if e.start == link.start])
         if row.told == "takes" and link.lane > row.lane:
-            x += row.power
-        into = self.left[end_row.lane] + _before(
-            link, [one for one in links if one.end == link.end]
-        )
-        begin = x, self.level[link.start] - BAR
-        end = into, self.level[link.end] + BAR
+            out += row.power
+        into = self.left[end_row.lane] + _before(link, [e for e in links if e.end == link.end])
+        begin, end = (out, self.level[link.start] - BAR), (into, self.level[link.end] + BAR)
         lane = self.left[link.lane] + width / 2
         if link.back:
-            return turned_back(begin, lane, end, width, width)
+            return _turned_back(begin, lane, end, width)
         stations = [begin, end]
         if begin[1] - end[1] > 1.0:
             first, last = begin[1] - 1.0 + 2 * BAR, end[1] + 1.0 - 2 * BAR
             both = [(lane, first), (lane, last)]
             stations[1:1] = both if first >= last else [(lane, (first + last) / 2)]
-        return ribbon(stations, width)
+        return _ribbon(stations, width)
 
 
 def _before(link: EnergyLink, others: list[EnergyLink]) -> float:
@@ -323,28 +314,22 @@ _THICK = 0.25
 """How thick a turn is at most, of the same."""
 
 
-def bent(stations: list[tuple[float, float]]) -> Numbers:
-    """Return a line (..., 2) that goes through stations and is upright in each."""
+def _ribbon(stations: list[tuple[float, float]], width: float) -> Numbers:
+    """Return the outline (..., 2) of a ribbon through stations, as wide everywhere along x."""
     ease = _STEPS**2 * (3.0 - 2.0 * _STEPS)
     parts = []
     for (x, y), (to_x, to_y) in pairwise(stations):
         parts.append(np.stack([x + (to_x - x) * ease, y + (to_y - y) * _STEPS], axis=-1))
-    return np.concatenate(parts)
-
-
-def ribbon(stations: list[tuple[float, float]], width: float) -> Numbers:
-    """Return the outline (..., 2) of a ribbon through stations, as wide everywhere along x."""
-    middle = bent(stations)
-    half = np.array([width / 2, 0.0])
+    middle, half = np.concatenate(parts), np.array([width / 2, 0.0])
     return np.concatenate([middle - half, (middle + half)[::-1]])
 
 
-def turned_back(
-    begin: tuple[float, float], lane: float, end: tuple[float, float], width: float, share: float
+def _turned_back(
+    begin: tuple[float, float], lane: float, end: tuple[float, float], width: float
 ) -> Numbers:
     """Return the outline (..., 2) of a ribbon down, up in a lane on the right, and down again."""
     edges = []
-    for side, deep in ((-0.5, _DEEP), (0.5, _DEEP - _THICK * share)):
+    for side, deep in ((-0.5, _DEEP), (0.5, _DEEP - _THICK * width)):
         out, up, into = begin[0] + side * width, lane - side * width, end[0] + side * width
         below = _arc(out, up, begin[1], -deep)
         above = _arc(up, into, end[1], deep)

@@ -88,11 +88,6 @@ def hemisphere(
     -------
     Axes
 
-    Raises
-    ------
-    SurfaceError
-        If the quantity, the side, the wavelength, the source or the mask does not fit.
-
     Examples
     --------
     >>> import optipath as op

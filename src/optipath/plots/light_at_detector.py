@@ -1,4 +1,4 @@
-"""The light at a detector over one or two parameters, in steps fine enough to draw."""
+"""Quantities of the light at a detector over one or two parameters, in steps to be drawn."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, listed, shown, unknown
+from optipath.light.quantities import QUANTITIES, LightQuantity
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.usual_range import usual_range
+from optipath.plots.colors import ColourScale
 from optipath.sweeps.axes import read_values, unnamed_arrays
 from optipath.values.units import in_unit
 
@@ -18,9 +20,87 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.plan.inputs import Inputs
-    from optipath.plots.light_quantities import DrawnQuantity
     from optipath.values.parameters import Parameter
     from optipath.values.precision import Numbers
+
+
+_READS = ("intensity", "linear", "stokes")
+"""What a detector reads, from the least."""
+
+
+class DrawnQuantity(NamedTuple):
+    """A quantity of light as it is drawn."""
+
+    light: LightQuantity
+
+    @property
+    def name(self) -> str:
+        """What it is called, such as ``"DoLP"``."""
+        return self.light.variable
+
+    @property
+    def unit(self) -> str:
+        """The unit in which it is drawn; quantities of one share an axis."""
+        return {"rad": "°"}.get(self.light.unit, self.light.unit)
+
+    @property
+    def label(self) -> str:
+        """Its name, what it is, and its unit."""
+        what = self.light.name.partition(",")[0]
+        return f"{self.name}: {what}{' (°)' if self.unit == '°' else ''}"
+
+    @property
+    def short(self) -> str:
+        """Its name and its unit."""
+        return f"{self.name} (°)" if self.unit == "°" else self.name
+
+    @property
+    def period(self) -> float | None:
+        """After how many degrees an angle is the same again."""
+        return None if self.light.period is None else np.degrees(self.light.period)
+
+    def is_read(self, reads: str) -> bool:
+        """Return whether a detector reads enough, ``"stokes"``, ``"linear"`` or ``"intensity"``."""
+        return _READS.index(self.light.reads) <= _READS.index(reads)
+
+    def of(self, numbers: npt.ArrayLike) -> Numbers:
+        """Return numbers of the light, in radians where they are angles, as they are drawn."""
+        plain = np.asarray(numbers, np.float64)
+        return np.degrees(plain) if self.unit == "°" else plain
+
+    def colours(self, numbers: Numbers) -> ColourScale:
+        """Return the colours of some numbers: in order, apart from 0, or round in a circle."""
+        if self.period:
+            return ColourScale.cyclic(self.period / 2.0)
+        finite = numbers[np.isfinite(numbers)]
+        low, high = self.light.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, None)
+        largest = high or float(np.max(np.abs(finite), initial=0.0)) or 1.0
+        return ColourScale.signed(largest) if low < 0.0 else ColourScale.share(largest)
+
+
+def drawn_quantities(names: Any) -> list[DrawnQuantity]:
+    """Return the quantities of some names, which may be written in small letters."""
+    argument = [names] if isinstance(names, str) else names
+    if not isinstance(argument, (list, tuple)) or not argument:
+        raise OptipathError(
+            f"quantities are {shown(names)}; give a name such as 'S0', or several: ('S0', 'DoLP')"
+        )
+    known = {each.variable: each for each in QUANTITIES}
+    small = {name.lower(): name for name in known}
+    read = [small.get(name.lower(), name) if isinstance(name, str) else name for name in argument]
+    faults = [sentence for name in read for sentence in unknown("quantity", name, known)]
+    if not faults and len({*read}) < len(read):
+        faults = [f"quantities are {shown([*argument])}; give each of them once"]
+    if faults:
+        raise OptipathError(*faults)
+    return [DrawnQuantity(known[name]) for name in read]
+
+
+def drawn_quantity(name: Any) -> DrawnQuantity:
+    """Return the quantity of one name."""
+    if not isinstance(name, str):
+        raise OptipathError(f"quantity is {shown(name)}; give one name, such as 'S0'")
+    return drawn_quantities(name)[0]
 
 
 def varied(
@@ -131,21 +211,15 @@ def quantities_at(
         light = path.trace_all(**spread, **fixed)[end]
         return np.stack([np.broadcast_to(q.of(q.light.of(light)), shape) for q in quantities])
     except ParameterError:
+        if not chosen:
+            raise
         count, axis = max((count, axis) for axis, count in enumerate(shape))
-        if count == 1 or not chosen:
-            raise
-        # Halves, and halves of these.
-        name, parts = [*arguments][axis], []
-        for values in np.array_split(arguments[name], 2):
-            half = {**arguments, name: values}
-            try:
-                parts.append(quantities_at(path, end, quantities, half, fixed, chosen=True))
-            except ParameterError:
-                parts.append(np.full((len(quantities), *map(len, half.values())), np.nan))
-        result = np.concatenate(parts, axis + 1)
-        if np.isnan(result).all():
-            raise
-        return result
+        if count == 1:
+            return np.full((len(quantities), *shape), np.nan)
+        name = [*arguments][axis]
+        halves = [{**arguments, name: half} for half in np.array_split(arguments[name], 2)]
+        parts = [quantities_at(path, end, quantities, e, fixed, chosen=True) for e in halves]
+        return np.concatenate(parts, axis + 1)
 
 
 def reads_of(path: PathGraph, end: str) -> str:

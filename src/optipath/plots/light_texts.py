@@ -33,6 +33,7 @@ def known_light(light: Any) -> Light:
 
 def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
     """Return one or several lights by their names."""
+    several: Mapping[str, Light] = {}
     if isinstance(light, Mapping):
         if labels is not None:
             raise OptipathError("labels are for a batch; a mapping has names already")
@@ -48,34 +49,25 @@ def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
             f"light of shape {light.shape} is more than a row; give one row of it, "
             f"light[{', '.join('0' for _ in light.shape[1:])}], or light.reshape(n)"
         )
-    else:
-        names = (
-            [f"light[{place}]" for place in range(min(light.size, MOST))] if light.ndim else [""]
-        )
-        lights = light[:MOST] if light.ndim else [light]
-        several = dict(zip(names, lights, strict=True))
-    if not 0 < (count := len(light) if isinstance(light, Mapping) else light.size) <= MOST:
+    count = len(light) if isinstance(light, Mapping) else light.size
+    if not 0 < count <= MOST:
         raise OptipathError(
             f"{count} lights are not drawn in one picture, which tells apart up to {MOST}; give 1 "
             f"to {MOST}, such as light[:{MOST}] or every so many, light[::step]"
         )
-    return (
-        several
-        if labels is None
-        else dict(zip(_names(labels, count), several.values(), strict=True))
-    )
-
-
-def _names(labels: Any, count: int) -> list[str]:
-    """Return the names that are given."""
-    names = [labels] if isinstance(labels, str) else labels
-    if not isinstance(names, Sequence) or not all(isinstance(each, str) for each in names):
-        raise OptipathError(f"labels are {shown(labels)}; give a text for each light")
-    if len(names) != count or len({*names}) < count:
-        raise OptipathError(
-            f"labels are {shown(labels)}; give {count} for {count} lights, each a name of its own"
-        )
-    return [*names]
+    if isinstance(light, Mapping):
+        return dict(several)
+    names = [f"light[{place}]" for place in range(count)] if light.ndim else [""]
+    if labels is not None:
+        names = [labels] if isinstance(labels, str) else labels
+        if not isinstance(names, Sequence) or not all(isinstance(each, str) for each in names):
+            raise OptipathError(f"labels are {shown(labels)}; give a text for each light")
+        if len(names) != count or len({*names}) < count:
+            raise OptipathError(
+                f"labels are {shown(labels)}; give {count} for {count} lights, each a name of its "
+                "own"
+            )
+    return dict(zip(names, light if light.ndim else [light], strict=True))
 
 
 _MINUS = "\N{MINUS SIGN}"

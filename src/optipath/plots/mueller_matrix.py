@@ -43,13 +43,6 @@ def mueller(matrix: Mueller, ax: Axes | None = None) -> Axes:
     -------
     Axes
 
-    Raises
-    ------
-    OptipathError
-        If it is no Mueller matrix, or a batch.
-    ParameterError
-        If JAX traces it.
-
     Examples
     --------
     >>> import optipath as op

@@ -7,19 +7,21 @@ from typing import TYPE_CHECKING, Any
 import matplotlib as mpl
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, listed
+from optipath.errors import OptipathError, listed
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import DASHES, FAINT, INK, LINES
 from optipath.plots.light_at_detector import (
     START,
+    DrawnQuantity,
     axis_of,
+    drawn_quantities,
+    drawn_quantity,
     end_of,
     fine_steps,
     quantities_at,
     reads_of,
     varied,
 )
-from optipath.plots.light_quantities import drawn_quantities, drawn_quantity
 from optipath.plots.text import fitting, head, is_wide, key_within, label_axes
 
 if TYPE_CHECKING:
@@ -29,7 +31,6 @@ if TYPE_CHECKING:
 
     from optipath.paths.path_graph import PathGraph
     from optipath.plots.light_at_detector import AlongAxis
-    from optipath.plots.light_quantities import DrawnQuantity
     from optipath.values.precision import Numbers
 
     Drawn = tuple[DrawnQuantity, Numbers]
@@ -60,7 +61,6 @@ def curve(
     Parameters
     ----------
     path : PathGraph
-        The path.
     x : str
         The parameter that goes along x, in its unit.
     y : str or sequence of str, optional
@@ -83,11 +83,6 @@ def curve(
     Axes
         That on the left.
 
-    Raises
-    ------
-    OptipathError
-        With what is wrong with names, values and units.
-
     Examples
     --------
     >>> import optipath as op
@@ -101,40 +96,38 @@ def curve(
     along, argument = axis_of(path, parameter, values, START)
     end, chosen = end_of(path, detector), values is None
 
-    def numbers_at(values: Numbers, more: Sequence[DrawnQuantity] = ()) -> Numbers:
-        arguments, every = {x: values}, [*quantities, *more]
-        return quantities_at(path, end, every, arguments, parameters, chosen=chosen).T
+    def numbers_at(values: Numbers) -> Numbers:
+        every = [*quantities, *drawn_quantities("S0")]
+        return quantities_at(path, end, every, {x: values}, parameters, chosen=chosen).T
 
-    def there_at(values: Numbers) -> Numbers:
-        try:
-            return numbers_at(values)
-        except ParameterError:
-            return np.full((len(values), len(quantities)), np.nan)
-
-    *columns, power = numbers_at(argument, drawn_quantities("S0")).T
-    numbers, message = np.stack(columns, axis=1), ""
-    if chosen:
-        fine = fine_steps(argument, numbers, there_at, _on_picture(quantities, numbers, power))
+    numbers, message = numbers_at(argument), ""
+    if np.isnan(numbers).all():
+        chosen = False  # The path refuses all, and says why.
+        numbers = numbers_at(argument)
+    if values is None:
+        on_picture = _on_picture(quantities, numbers)
+        fine = fine_steps(argument, numbers, numbers_at, on_picture)
         message, numbers = fine.told(x), fine.numbers
         along = along._replace(numbers=np.interp(fine.values, argument, along.numbers))
     ax = own_axes(ax, _SIZE)
     if message:
         head(ax, message)
-    drawn = [*zip(quantities, numbers.T, strict=True)]
+    drawn = [*zip(quantities, numbers.T, strict=False)]
     draw_curves(ax, along, drawn, reads=reads_of(path, end))
     return ax
 
 
 def _on_picture(
-    quantities: Sequence[DrawnQuantity], first: Numbers, power: Numbers
+    quantities: Sequence[DrawnQuantity], first: Numbers
 ) -> Callable[[Numbers], Numbers]:
-    """Return what makes of quantities where they are on a picture, by the first of them and S0."""
+    """Return what makes of quantities and S0 where they are on a picture, by the first of them."""
+    power = first[:, -1]
     dark = _DARK * float(np.max(power, where=np.isfinite(power), initial=0.0))
-    heights = [_height(each, its, dark) for each, its in zip(quantities, first.T, strict=True)]
+    heights = [_height(each, its, dark) for each, its in zip(quantities, first.T, strict=False)]
 
     def on_picture(numbers: Numbers) -> Numbers:
         columns = []
-        for quantity, values, height in zip(quantities, numbers.T, heights, strict=True):
+        for quantity, values, height in zip(quantities, numbers.T, heights, strict=False):
             if quantity.period is None:
                 columns.append(values / height)
             else:  # An angle that comes round is on a circle.
@@ -179,7 +172,6 @@ def quantity_map(
     Parameters
     ----------
     path : PathGraph
-        The path.
     x, y : str
         The parameters along the axes, each in its unit.
     quantity : str, optional
@@ -198,11 +190,6 @@ def quantity_map(
     -------
     Axes
 
-    Raises
-    ------
-    OptipathError
-        With what is wrong with names and values.
-
     Examples
     --------
     >>> import optipath as op
@@ -219,6 +206,8 @@ def quantity_map(
     chosen = x_values is None and y_values is None
     end = end_of(path, detector)
     (numbers,) = quantities_at(path, end, [drawn], arguments, parameters, chosen=chosen)
+    if chosen and np.isnan(numbers).all():  # If the path refuses all, it says why.
+        (numbers,) = quantities_at(path, end, [drawn], arguments, parameters, chosen=False)
     ax = own_axes(ax, _MAP_SIZE)
     draw_map(ax, along, up, drawn, numbers, reads=reads_of(path, end))
     return ax

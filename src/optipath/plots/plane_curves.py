@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -79,11 +77,6 @@ def in_plane(
     -------
     Axes
 
-    Raises
-    ------
-    SurfaceError
-        If an argument does not fit, or what is drawn has not been measured.
-
     Examples
     --------
     >>> import optipath as op
@@ -106,7 +99,7 @@ def in_plane(
     colours = {seen.colour for seen in sides.values()} - {""}
     for name, seen in sides.items():
         label = f"{name}, {seen.colour}" if len(colours) > 1 and seen.colour else name
-        _draw_curve(ax, PlaneCut(seen), drawn, label, known_to)
+        _draw_curve(ax, seen, drawn, label, known_to)
     ax.set(xlim=(-90.0, 90.0), xlabel="exit angle to the normal (°)", ylabel=drawn.label)
     ax.set_xticks(range(-90, 91, 30))
     ax.set_ylim(*_LIMITS[quantity])
@@ -145,67 +138,16 @@ def _sides(
 
 
 def _draw_curve(
-    ax: Axes, cut: PlaneCut, drawn: PixelQuantity, name: str, known_to: float | None
+    ax: Axes, seen: SeenSide, drawn: PixelQuantity, name: str, known_to: float | None
 ) -> None:
-    value, error = _known(cut, drawn, known_to)
-    angles = np.degrees(cut.angles)
+    angles, value, error = _known(seen, drawn, known_to)
     before = sum(line.get_gid() == _CURVE for line in ax.get_lines())
     colour, dash = LINES[before % len(LINES)], DASHES[before % len(DASHES)]
     ax.plot(angles, value, color=colour, linestyle=dash, label=name or None, gid=_CURVE)
     band = BAND * np.nan_to_num(error)
     ax.fill_between(angles, value - band, value + band, color=colour, alpha=0.25, linewidth=0.0)
-    if not np.isnan(mirrored := cut.seen.mirrored):
+    if not np.isnan(mirrored := seen.mirrored):
         ax.axvline(np.degrees(mirrored), color=colour, linestyle=":", linewidth=1.0, zorder=0)
-
-
-@dataclass(frozen=True)
-class PlaneCut:
-    """The light of one side of a measured sample in the plane of incidence.
-
-    Of the row of pixels in the plane, or the mean of the two beside it; x is across the plane.
-    """
-
-    seen: SeenSide
-
-    @property
-    def _rows(self) -> slice:
-        pixels = self.seen.measured.sensor.pixels
-        return slice((pixels - 1) // 2, pixels // 2 + 1)
-
-    @cached_property
-    def angles(self) -> Numbers:
-        """The angle of each pixel to the normal, in radians, below 0 on the side of the source."""
-        sensor = self.seen.measured.sensor
-        return np.asarray(np.copysign(sensor.theta[self._rows][0], sensor.coordinates))
-
-    @cached_property
-    def _frames(self) -> tuple[Frame, Frame]:
-        """Those of the pixels, and those with x perpendicular to the plane of incidence."""
-        up = self.seen.side == "reflected"
-        directions = self.seen.measured.sensor.directions[self._rows]
-        directions = directions * (1.0, 1.0, 1.0 if up else -1.0)
-        own = frame_along("direction", directions, up=up)
-        return own, Frame.from_direction(own.z, (0.0, 1.0, 0.0))
-
-    def light(self, numbers: Numbers) -> Light:
-        """Return the light (columns,) per steradian among the numbers of `PartSums.estimate`."""
-        own, plane = self._frames
-        matrices = self.seen.measured.matrices(self.pixels(numbers))
-        seen = Light.of(matrices @ np.array(self.seen.source), own, measured=True)
-        stokes = self.mean(seen.in_frame(plane).stokes)
-        noise = ROUNDED * self.seen.source[0] * self.mean(matrices[..., 0, 0])
-        return Light.of(stokes, Frame(), noise=noise, measured=True)
-
-    def pixels(self, numbers: Numbers) -> Numbers:
-        """Return the numbers of the rows of pixels in the plane."""
-        at = self.seen.measured.side(self.seen.side)
-        return numbers[at, self._rows, :, self.seen.place]
-
-    def mean(self, pixels: Numbers) -> Numbers:
-        """Return the mean of the rows (columns, ...), per steradian."""
-        area = self.seen.measured.sensor.solid_angle[self._rows].sum(axis=0)
-        total = pixels.sum(axis=0)
-        return np.asarray(total / area.reshape(-1, *[1] * (total.ndim - 1)))
 
 
 _OF_LIGHT = {each.variable: each for each in OF_LIGHT}
@@ -222,18 +164,39 @@ _LIMITS: dict[str, tuple[float | None, float | None]] = {
 _DIFFERENCE_KNOWN_TO = 5.0
 
 
-def _known(cut: PlaneCut, drawn: PixelQuantity, known_to: float | None) -> tuple[Numbers, Numbers]:
-    """Return values and standard errors (columns,), NaN where not known."""
-    name, scalar = drawn.variable, cut.seen.measured.intensities
+def _known(
+    seen: SeenSide, drawn: PixelQuantity, known_to: float | None
+) -> tuple[Numbers, Numbers, Numbers]:
+    """Return angles of exit in degrees, values and standard errors (columns,), NaN if not known.
+
+    Of the row of pixels in the plane of incidence, or the mean of the two beside it. Angles are
+    below 0 on the side of the source.
+    """
+    measured, name, up = seen.measured, drawn.variable, seen.side == "reflected"
+    sensor, source, own = measured.sensor, np.array(seen.source), measured.own
+    rows = slice((sensor.pixels - 1) // 2, sensor.pixels // 2 + 1)
+    place = measured.side(seen.side), rows, slice(None), seen.place
+    area = sensor.solid_angle[rows].sum(axis=0)
+    directions = sensor.directions[rows] * (1.0, 1.0, 1.0 if up else -1.0)
+    frame = frame_along("direction", directions, up=up)
+    # With x perpendicular to the plane.
+    in_plane_frame = Frame.from_direction(frame.z, (0.0, 1.0, 0.0))
+
+    def mean(pixels: Numbers) -> Numbers:
+        total = pixels.sum(axis=0)
+        return np.asarray(total / area.reshape(-1, *[1] * (total.ndim - 1)))
 
     def at(numbers: Numbers) -> Numbers:
-        light = cut.light(numbers)
+        pixels = numbers[place]
+        matrices = measured.matrices(pixels)
+        light = Light.of(matrices @ source, frame, measured=True).in_frame(in_plane_frame)
+        noise = ROUNDED * source[0] * mean(matrices[..., 0, 0])
+        light = Light.of(mean(light.stokes), Frame(), noise=noise, measured=True)
         if name == "difference":
-            return 100.0 * (light.stokes[..., 0] / cut.mean(scalar(cut.pixels(numbers))) - 1.0)
+            return 100.0 * (light.stokes[..., 0] / mean(measured.intensities(pixels)) - 1.0)
         values = np.asarray(_OF_LIGHT[name].of(light))
         return np.degrees(values) if name == "AoP" else values
 
-    own = cut.seen.measured.own
     value, error = own.estimate(at)
     if name == "AoP":
         _, error = own.estimate(lambda numbers: np.remainder(at(numbers) - value + 90.0, 180.0))
@@ -242,4 +205,5 @@ def _known(cut: PlaneCut, drawn: PixelQuantity, known_to: float | None) -> tuple
     usual = _DIFFERENCE_KNOWN_TO if name == "difference" else drawn.known_to
     limit = usual if known_to is None else known_to
     there = np.isinf(limit) | (error <= limit)
-    return np.where(there, value, np.nan), np.where(there, error, np.nan)
+    angles = np.degrees(np.copysign(sensor.theta[rows][0], sensor.coordinates))
+    return angles, np.where(there, value, np.nan), np.where(there, error, np.nan)

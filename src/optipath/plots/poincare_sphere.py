@@ -71,13 +71,6 @@ def poincare(
     -------
     Axes3D
 
-    Raises
-    ------
-    OptipathError
-        If the axes are flat, the light is no row, or `by` does not fit.
-    ParameterError
-        If JAX traces the light.
-
     Examples
     --------
     >>> import optipath as op
@@ -313,7 +306,6 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     Parameters
     ----------
     path : PathGraph
-        The path.
     ax : Axes3D, optional
         Where, of three dimensions; a figure of its own by default.
     **values : float or str
@@ -322,13 +314,6 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     Returns
     -------
     Axes3D
-
-    Raises
-    ------
-    OptipathError
-        If the axes are flat, the light is a batch, or what is given is no path.
-    ParameterError
-        As `PathGraph.trace`; or if JAX traces a value.
 
     Examples
     --------

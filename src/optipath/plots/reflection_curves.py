@@ -53,11 +53,6 @@ def reflection(
     -------
     Axes
 
-    Raises
-    ------
-    OptipathError
-        If an index or the wavelength does not fit, or there is nothing that reflects.
-
     Examples
     --------
     >>> ax = reflection("gold", wavelength="516 nm")

@@ -83,13 +83,6 @@ def stokes(
     -------
     Axes
 
-    Raises
-    ------
-    OptipathError
-        If there are too many, or names or published values do not fit.
-    ParameterError
-        If JAX traces the light.
-
     Examples
     --------
     >>> import optipath as op

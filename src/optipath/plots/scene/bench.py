@@ -85,8 +85,6 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     ------
     PathError
         If light leaves the plane, or the values are those of several paths.
-    OptipathError
-        If `ax` is none, or what is given is no path.
 
     Examples
     --------
@@ -148,11 +146,25 @@ def _fit_rows(
     step, row = room.width / each, room.height / rows
     per_unit = max(min(step, (row - lines) / (_ABOVE + _BELOW)), 1.0)
     row = min(row, lines + _ROOMY * per_unit)
-    result = in_rows(flat, scene, each, (step / per_unit, row / per_unit))
     spare = (room.height - rows * row) / 2.0
     first = np.array([room.x0 + step / 2.0, room.y1 - spare - _ABOVE * per_unit])
     set_limits(ax, np.zeros(2), first, per_unit)
-    return result
+    order = sorted(flat.at, key=lambda name: float(flat.at[name][0]))
+    at = {
+        name: np.array([step * (place % each), -row * (place // each)]) / per_unit
+        for place, name in enumerate(order)
+    }
+    rays, half = [], np.array([step / per_unit / 2.0, 0.0])
+    for ray in scene.rays:
+        tail = at[ray.start]
+        head = at[ray.end] if ray.end else tail + half
+        if tail[1] == head[1]:
+            rays.append(FlatRay((np.array([tail, head]),), (tail + head) / 2.0))
+            continue
+        # What goes on in the next row goes as far as the middle between two nodes.
+        pieces = np.array([tail, tail + half]), np.array([head - half, head])
+        rays.append(FlatRay(pieces, head - half + [min(_FROM_EDGE, 0.5 * half[0]), 0.0]))
+    return flat._replace(at=at, rays=tuple(rays))
 
 
 def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:
@@ -278,18 +290,10 @@ def _add(ax: Axes, patch: Any, zorder: float = 5.0) -> None:
     ax.add_patch(patch)
 
 
-_FIELDS = (
-    "angle",
-    "retardance",
-    "incidence",
-    "reflectance",
-    "thickness",
-    "length",
-    "verdet",
-    "field",
-    "dichroic_angle",
-    "azimuth",
-)
+_FIELDS = [
+    *("angle", "retardance", "incidence", "reflectance", "thickness", "length", "verdet"),
+    *("field", "dichroic_angle", "azimuth"),
+]
 """What is told of an element, in this order."""
 
 _ALWAYS = "angle", "incidence"
@@ -382,27 +386,6 @@ def flat_sheet(scene: Scene) -> FlatSheet:
     flat = tuple(FlatRay((both,), both.mean(axis=0)) for both in ends)
     back = any(way @ right < 0.0 for way in ways)
     return FlatSheet(sheet, at, flat, straight and not back, scene.unit)
-
-
-def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]) -> FlatSheet:
-    """Return a straight set-up in rows."""
-    step, down = apart
-    order = sorted(flat.at, key=lambda name: float(flat.at[name][0]))
-    at = {
-        name: np.array([step * (place % each), -down * (place // each)])
-        for place, name in enumerate(order)
-    }
-    rays, half = [], np.array([step / 2.0, 0.0])
-    for ray in scene.rays:
-        tail = at[ray.start]
-        head = at[ray.end] if ray.end else tail + half
-        if tail[1] == head[1]:
-            rays.append(FlatRay((np.array([tail, head]),), (tail + head) / 2.0))
-            continue
-        # What goes on in the next row goes as far as the middle between two nodes.
-        pieces = np.array([tail, tail + half]), np.array([head - half, head])
-        rays.append(FlatRay(pieces, head - half + [min(_FROM_EDGE, 0.5 * half[0]), 0.0]))
-    return flat._replace(at=at, rays=tuple(rays))
 
 
 def nearest_symbols(scene: Scene, flat: FlatSheet) -> float:

@@ -45,7 +45,6 @@ def geometry(
     Parameters
     ----------
     path : PathGraph
-        The path.
     ax : Axes, optional
         Where; by default in a figure of its own. Plain axes: what is in space is projected.
     view : tuple of float, optional
@@ -57,13 +56,6 @@ def geometry(
     Returns
     -------
     Axes
-
-    Raises
-    ------
-    PathError
-        If the values are those of several paths.
-    OptipathError
-        If `ax` or `view` is none, or what is given is no path.
 
     Examples
     --------
