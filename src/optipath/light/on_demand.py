@@ -76,14 +76,14 @@ def inherited_noise(
         if callable(vars(light).get("_noise")):
             vars(light)["_noise"] = light.noise
 
-    @np.errstate(over="ignore", under="ignore", invalid="ignore")
     def noise(stokes: Array) -> Array:
         total = np.zeros(stokes.shape[:-1], stokes.dtype)
-        for light in lights:
-            numbers = known(light.stokes)
-            floor = light.noise + rounding(numbers) if mixed else light.noise
-            floor = floor * np.abs(factor) + added * np.abs(numbers[..., 0])
-            total = total + (floor if part is None else part(floor))
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            for light in lights:
+                numbers = known(light.stokes)
+                floor = light.noise + rounding(numbers) if mixed else light.noise
+                floor = floor * np.abs(factor) + added * np.abs(numbers[..., 0])
+                total = total + (floor if part is None else part(floor))
         return total
 
     return noise

@@ -171,6 +171,9 @@ class Parameter:
         faults: list[str] = []
         numbers = []
         for what, number in _limits_and_words(self):
+            if type(number) is float:
+                numbers.append(number)
+                continue
             with collecting(faults, ParameterError):
                 numbers.append(numbers_for(what, number, parse, ParameterError))
         if faults:

@@ -143,6 +143,8 @@ def affine(scale: float, offset: float, numbers: Any, limits: tuple[float, float
 
 def real_number(number: Any) -> float | None:
     """Return a finite real number as a float; None for what is none."""
+    if type(number) is float:
+        return number if math.isfinite(number) else None
     if isinstance(number, np.ndarray) and not number.ndim and number.dtype.kind in "iuf":
         number = number[()]
     if not isinstance(number, Real) or isinstance(number, (bool, np.bool_, np.timedelta64)):
