@@ -50,7 +50,7 @@ REFUSED = [
     ("run npgr026 --delta 0:9:5000 --rho 0:9:5000 --phi 0:9:5000", "write it to a file"),
     ("run npgr026 --delta @angles.csv", "has no unit"),
     ("sweep malus", "an axis at least;", "give --angle START:STOP:COUNT or --coords FILE.csv"),
-    ("sweep malus --angle 0:9:3 --out none/a.csv", "there is no folder"),
+    ("sweep malus --angle 0:9:3 --out none/a.csv", "there is no such folder"),
     ("sweep malus --angle 0:9:3 --out a.csv --json", "give one of them"),
     ("sweep malus --angle 0:9:3 --out a.csv --chunks 3", "--chunks belongs to a sweep"),
     ("sweep malus --angle 0:9:3 --zip angle,intensty", "which has no axis of its own"),

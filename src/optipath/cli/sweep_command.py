@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-from optipath.cli.arguments import array_faults, write
+from optipath.cli.arguments import array_faults, check_place, write
 from optipath.cli.console import DIGITS, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.options import flag, parameter_name
 from optipath.cli.outcome import (
@@ -25,7 +24,7 @@ from optipath.cli.outcome import (
 )
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError, listed, shown
+from optipath.errors import ParameterError, collecting, listed, shown
 from optipath.light.printed import Numbers
 from optipath.light.quantities import PRINTED
 from optipath.sweeps.axes import grid_of
@@ -114,17 +113,15 @@ def _faults(
 def out_faults(out: str) -> list[str]:
     """Return what is wrong with a file that a sweep is to be written to, a sentence each."""
     file, name = Path(out), f"--out {shown(out)}"
-    folder = file.absolute().parent
     if "\0" in out or file.suffix not in (*_TEXTS, *_BLOCKS):
         meant = shown(str(file.with_suffix(".csv"))) if file.name else "'result.csv'"
         return [f"{name} has no ending of a sweep; write {meant}, .json, .nc or .zarr"]
-    if not folder.is_dir():
-        return [f"{name} cannot be written: there is no folder {shown(str(folder))}"]
     if file.suffix in _TEXTS and (file.exists() or file.is_symlink()):
         return [f"{name} is there already, and stays; name another file, or remove it"]
-    if not os.access(folder, os.W_OK):
-        return [f"{name} cannot be written: permission denied"]
-    return []
+    faults: list[str] = []
+    with collecting(faults, about="--out"):
+        check_place(file)
+    return faults
 
 
 def _sweep(
