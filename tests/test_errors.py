@@ -174,7 +174,7 @@ EXACT = {
     "engines/symbols.py": {"opaque"},
     "explorer/answers.py": {"python_lines", "_by_name", "_material"},
     "surfaces/hemisphere/chunks.py": {"_roughness_text"},
-    "sweeps/stored.py": {"sweep_identity"},
+    "sweeps/stored.py": {"identity"},
     "values/units.py": {"format_quantity"},
 }
 

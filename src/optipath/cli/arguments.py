@@ -12,7 +12,6 @@ import numpy as np
 
 from optipath.cli.options import flag
 from optipath.errors import OptipathError, ParameterError, collecting, shown
-from optipath.sweeps.grid import SweepGrid, sweep_axis
 from optipath.values.files import bytes_of, message_of, write_file
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength
@@ -52,12 +51,6 @@ def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:
             with collecting(faults):
                 path.bind(**{name: values.given})
     return faults
-
-
-def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
-    """Return the grid of what is given several values."""
-    known = path.parameters if axes else {}
-    return SweepGrid(tuple([sweep_axis(known, name, values) for name, values in axes.items()]))
 
 
 def refuse_axes(command: str, texts: Mapping[str, str | None], axes: Iterable[str]) -> None:

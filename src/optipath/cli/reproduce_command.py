@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
+from optipath.cli import console
 from optipath.cli.arguments import SEED, THREADS, whole
 from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json, title
 from optipath.cli.options import StrictCommand
@@ -14,8 +15,8 @@ from optipath.cli.surface_output import measured
 from optipath.errors import SurfaceError
 from optipath.materials.quantities import plain
 from optipath.paths.files.schema import Faults
+from optipath.surfaces import reproduction
 from optipath.surfaces.experiment_files import experiment_names, load_experiment
-from optipath.surfaces.reproduction import MEASURES
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -56,17 +57,18 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
     if listed:
         _list(experiments, as_json=as_json)
         return
-    # Neither a list nor a wrong name needs numbers.
-
     done: list[tuple[Experiment, list[Reproduced]]] = []
     try:
         for experiment in experiments:
-            done.append((experiment, []))
+            results: list[Reproduced] = []
+            done.append((experiment, results))
             try:
-                _run(*done[-1], **options)
+                with console.photon_bar(experiment.name) as progress:
+                    for one in reproduction.reproduce(experiment, progress=progress, **options):
+                        results.append(one)  # noqa: PERF402 - each stays where Ctrl-C comes
             finally:
-                if done[-1][1] and not as_json:
-                    print_reproduced(*done[-1], first=len(done) == 1)
+                if results and not as_json:
+                    print_reproduced(experiment, results, first=len(done) == 1)
     finally:
         if as_json and done and done[0][1]:
             whole = len(done) == len(experiments) and all(
@@ -74,16 +76,6 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
             )
             several = [reproduced_as_json(*one) for one in done if one[1]]
             say_json({"experiments": several, "interrupted": not whole})
-
-
-def _run(experiment: Experiment, results: list[Reproduced], **options: Any) -> None:
-    """Do an experiment again; what has been found stays where Ctrl-C comes."""
-    from optipath.cli.console import photon_bar  # noqa: PLC0415
-    from optipath.surfaces.reproduction import reproduce  # noqa: PLC0415
-
-    with photon_bar(experiment.name) as progress:
-        for one in reproduce(experiment, progress=progress, **options):
-            results += [one]
 
 
 def _list(experiments: list[Experiment], *, as_json: bool) -> None:
@@ -107,23 +99,23 @@ def print_reproduced(
     experiment: Experiment, results: Sequence[Reproduced], *, first: bool = True
 ) -> None:
     """Print what is published of a sample, and what has been measured."""
-    console = PlainConsole()
+    page = PlainConsole()
     if not first:
-        console.print()
-    console.print(title(experiment.name, experiment.description))
+        page.print()
+    page.print(title(experiment.name, experiment.description))
     photons = f"{results[0].photons:,} photons a direction" if results else "nothing measured"
-    console.print(cell(f"{experiment.source}; {photons}"))
+    page.print(cell(f"{experiment.source}; {photons}"))
     for text in dict.fromkeys(one.measurement.text for one in results):
-        console.print()
-        console.print(cell(f'"{text}"'))
+        page.print()
+        page.print(cell(f'"{text}"'))
         several = [one for one in results if one.measurement.text == text]
         for mask in dict.fromkeys(one.found.mask for one in several):
-            console.print(_table([one for one in several if one.found.mask == mask]))
+            page.print(_table([one for one in several if one.found.mask == mask]))
             if mask:
-                console.print(cell(f"of {mask}"))
-    console.print()
+                page.print(cell(f"of {mask}"))
+    page.print()
     for measure in dict.fromkeys(one.measurement.measure for one in results):
-        console.print(cell(f"{measure}: {MEASURES[measure].told}"))
+        page.print(cell(f"{measure}: {reproduction.MEASURES[measure].told}"))
 
 
 def _table(several: Sequence[Reproduced]) -> Table:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.cli.arguments import array_faults, grid_of_axes
+from optipath.cli.arguments import array_faults
 from optipath.cli.console import DIGITS, say_json, say_wrapped
 from optipath.cli.outcome import outcome_as_json, outcome_of, print_cases, print_outcome
 from optipath.cli.preset_command import COMPOSING, PresetGroup, of_each
 from optipath.composer.composer import Composer
 from optipath.errors import ParameterError
+from optipath.sweeps.grid import SweepGrid, sweep_axis
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -43,7 +44,8 @@ def _outcome(chosen: Chosen, reads: str | None, options: Mapping[str, Any]) -> O
     plan = path.plan_by(Composer(**options))
     if chosen.axes and (faults := array_faults(plan.inputs, chosen.axes)):
         raise ParameterError(*faults)
-    return outcome_of(chosen, path, plan, grid_of_axes(path, chosen.axes))
+    axes = [sweep_axis(path.parameters, name, values) for name, values in chosen.axes.items()]
+    return outcome_of(chosen, path, plan, SweepGrid(tuple(axes)))
 
 
 run = PresetGroup("run", _run, (*COMPOSING, DIGITS), several=_run_several, ranges=True)

@@ -15,8 +15,6 @@ from optipath.sweeps.light_figures import STOKES, figures_of, place_of
 from optipath.values.arrays import Unchanging, locked, same
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy.typing as npt
 
     from optipath.light.light import Light
@@ -125,8 +123,23 @@ class Propagation(Unchanging):
 
     def __str__(self) -> str:
         """Return a table: quantities, uncertainties, shares; of a batch, from where to where."""
-        shown = self.light, self.uncertain, self.uncertainties, self.shares
-        return "\n".join([text_of_propagation(self.method, *shown), *self.notes])
+        values, names = figures_of(self.light), [each.name for each in self.uncertain]
+        rows = [["", "value", "uncertainty", *names]]
+        for place, quantity in enumerate(QUANTITIES):
+            unit, factor = (" deg", _DEGREES) if quantity.unit == "rad" else ("", 1.0)
+            value, spread = (n[..., place] * factor for n in (values, self.uncertainties))
+            units = [unit if np.any(np.isfinite(n)) else "" for n in (value, spread)]
+            texts = [_value(value, spread) + units[0], _span(spread, _digits) + units[1]]
+            of_each = [_share(self.shares[..., place, each]) for each in range(len(names))]
+            rows.append([quantity.variable, *texts, *of_each])
+        widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+        lines = [
+            "  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])])
+            for row in rows
+        ]
+        shape = f", shape {self.light.shape}" if self.light.shape else ""
+        head = f"{self.method}{shape}: {'; '.join(map(str, self.uncertain))}"
+        return "\n".join([head, *lines, *self.notes])
 
     def __repr__(self) -> str:
         names = ", ".join(each.name for each in self.uncertain)
@@ -144,34 +157,6 @@ def _same(first: Any, second: Any) -> bool:
 
 
 _DEGREES = 180.0 / math.pi
-
-
-def text_of_propagation(
-    method: str,
-    light: Light,
-    uncertain: Sequence[UncertainValue],
-    uncertainties: Any,
-    shares: Any,
-) -> str:
-    """Return a table of the quantities of light with uncertainties (..., 10)."""
-    values, names = figures_of(light), [each.name for each in uncertain]
-    head = ["", "value", "uncertainty", *names]
-    rows = [head]
-    for place, quantity in enumerate(QUANTITIES):
-        unit, factor = (" deg", _DEGREES) if quantity.unit == "rad" else ("", 1.0)
-        spread = uncertainties[..., place] * factor
-        value = _value(values[..., place] * factor, spread)
-        of_each = [_share(shares[..., place, each]) for each in range(len(names))]
-        units = [unit if np.any(np.isfinite(n)) else "" for n in (values[..., place], spread)]
-        of_unit = [value + units[0], _span(spread, _digits) + units[1]]
-        rows.append([quantity.variable, *of_unit, *of_each])
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = [
-        "  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows
-    ]
-    shape = f", shape {light.shape}" if light.shape else ""
-    argument = "; ".join(map(str, uncertain))
-    return "\n".join([f"{method}{shape}: {argument}", *lines])
 
 
 def _value(values: Any, spread: Any) -> str:

@@ -117,9 +117,16 @@ class SweepJob(ChunkedSweep):
 
     @property
     def identity(self) -> str:
-        """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
-        types = {name: each.dtype for name, each in self.arrays.items()}
-        return sweep_identity(self.recipe, self.grid, self.sizes, types)
+        """All of what is computed, a line each, so that the first other one can be told."""
+        recipe, grid = self.recipe, self.grid
+        lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
+        lines += [f"option {name}: {value!r}" for name, value in recipe.options]
+        lines += [f"element class {' '.join(each)}" for each in recipe.own]
+        lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
+        lines += [f"axis {axis.name}: {_axis_text(axis)}" for axis in grid.axes]
+        lines += [f"chunks of {name}: {size}" for name, size in self.sizes.items()]
+        lines += [f"variable {name}: {each.dtype}" for name, each in self.arrays.items()]
+        return "\n".join([*lines, recipe.text])
 
     @property
     def _counts(self) -> tuple[int, ...]:
@@ -173,20 +180,6 @@ LAYOUT = 1
 def _as_stored(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """Return words as words of a fixed length, which stores have."""
     return values.astype(str) if values.dtype.kind == "O" else values
-
-
-def sweep_identity(
-    recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int], types: Mapping[str, str]
-) -> str:
-    """Return all of what a sweep computes, a line each, so that the first other one can be told."""
-    lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
-    lines += [f"option {name}: {value!r}" for name, value in recipe.options]
-    lines += [f"element class {' '.join(each)}" for each in recipe.own]
-    lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
-    lines += [f"axis {axis.name}: {_axis_text(axis)}" for axis in grid.axes]
-    lines += [f"chunks of {name}: {size}" for name, size in sizes.items()]
-    lines += [f"variable {name}: {each}" for name, each in types.items()]
-    return "\n".join([*lines, recipe.text])
 
 
 def _single(grid: SweepGrid, name: str) -> str:
