@@ -343,6 +343,7 @@ STOKES = op.Source(stokes=op.Parameter("stokes", [1, 0, 0, 0])) >> op.Detector()
     [
         ((MALUS, "angel"), "parameter 'angel' is unknown; did you mean 'angle'"),
         ((MALUS, 3), "parameter 3 is unknown"),
+        ((MALUS, {}), "parameter {} is unknown"),
         ((MALUS, "angle", {"angle": 0.1}), "'angle' goes along an axis; leave out angle="),
         ((MALUS, "angle", {"values": 0.3}), "give two or more"),
         ((MALUS, "angle", {"values": "30 deg:30 deg:5"}), "'angle' are 30 deg alone; give"),

@@ -113,7 +113,7 @@ def varied(
     faults = [
         inputs.unknown(name) if isinstance(name, str) else f"parameter {shown(name)} is unknown"
         for name in (*names, *fixed)
-        if name not in inputs.open
+        if not isinstance(name, str) or name not in inputs.open
     ]
     faults += [
         f"parameter '{name}' goes along an axis; leave out {name}=..."

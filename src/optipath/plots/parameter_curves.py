@@ -120,10 +120,13 @@ def curve(
 def _on_picture(
     quantities: Sequence[DrawnQuantity], first: Numbers
 ) -> Callable[[Numbers], Numbers]:
-    """Return what makes of quantities and S0 where they are on a picture, by the first of them."""
+    """Return what makes of quantities where they are on a picture, by the first, and S0 behind."""
     power = first[:, -1]
     dark = _DARK * float(np.max(power, where=np.isfinite(power), initial=0.0))
-    heights = [_height(each, its, dark) for each, its in zip(quantities, first.T, strict=False)]
+    heights = []
+    for quantity, values in zip(quantities, first.T, strict=False):
+        low, high = _ends(quantity, values)
+        heights.append(max(high - low, dark if quantity.name.startswith("S") else 0.0) or 1.0)
 
     def on_picture(numbers: Numbers) -> Numbers:
         columns = []
@@ -138,13 +141,10 @@ def _on_picture(
     return on_picture
 
 
-def _height(quantity: DrawnQuantity, numbers: Numbers, dark: float) -> float:
-    """Return how high the axis of a quantity is, in its unit."""
-    if quantity.light.limits:
-        return quantity.light.limits[1] - quantity.light.limits[0]
-    finite = np.append(numbers[np.isfinite(numbers)], 0.0)
-    least = dark if quantity.name.startswith("S") else 0.0
-    return max(float(np.ptp(finite)), least) or 1.0
+def _ends(quantity: DrawnQuantity, values: Numbers) -> tuple[float, float]:
+    """Return the ends of the axis of a quantity: its own, or those of its values and of 0."""
+    finite = np.append(values[np.isfinite(values)], 0.0)
+    return quantity.light.limits or (float(finite.min()), float(finite.max()))
 
 
 _MAP_SIZE = 6.4, 4.8
@@ -331,12 +331,8 @@ def _draw(
 
 def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
     """Let an axis reach from end to end where its quantities have ends, and else from 0."""
-    ends = [quantity.light.limits for quantity, _ in members]
-    if not all(ends):
-        finite = [values[np.isfinite(values)] for _, values in members]
-        ends = [(float(each.min()), float(each.max())) for each in finite if each.size]
-        ends.append((0.0, 0.0))
-    low, high = min(each[0] for each in ends if each), max(each[1] for each in ends if each)
+    ends = [_ends(*each) for each in members]
+    low, high = min(each[0] for each in ends), max(each[1] for each in ends)
     high = high if low < high else low + 1.0
     room = _MARGIN * (high - low)
     ax.set_ylim(low - room, high + room)

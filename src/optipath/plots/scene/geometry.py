@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from optipath.paths.path_graph import PathGraph
-    from optipath.plots.scene.layout import Scene, SceneAngle, SceneFrame, SceneNode, SceneRay
+    from optipath.plots.scene.layout import Scene, SceneAngle, SceneNode, SceneRay
     from optipath.values.precision import Numbers
 
 
@@ -138,7 +138,9 @@ def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
         _ray(ax, scene, ray, view)
     for angle in scene.angles:
         _angle(ax, angle, view)
-    for frame in drawn_frames(scene):
+    # Rays that leave end soon, and have no room for a frame.
+    leaving = {ray.name for ray in scene.rays if ray.leaves}
+    for frame in (each for each in scene.frames if each.port not in leaving):
         for axis, colour in zip(frame.axes[:2], (X_COLOUR, Y_COLOUR), strict=True):
             ends = np.array([frame.at, frame.at + _FRAME * scene.unit * axis])
             _line(ax, view.points(ends), color=colour, lw=1.4, zorder=5.5)
@@ -158,30 +160,25 @@ _MARKS: dict[str, dict[str, Any]] = {
 }
 
 
-def drawn_frames(scene: Scene) -> list[SceneFrame]:
-    """Return the frames that are drawn: those of links, since rays that leave end soon."""
-    leaving = {ray.name for ray in scene.rays if ray.leaves}
-    return [frame for frame in scene.frames if frame.port not in leaving]
-
-
 def key_to(scene: Scene) -> list[Artist]:
     """Return what a key shows of the lines and faces that are drawn."""
     s = "surface" in {node.role for node in scene.nodes}
-    results: list[Artist] = [
-        Line2D([], [], color=X_COLOUR, lw=1.6, label="x of a frame" + " (s)" * s),
-        Line2D([], [], color=Y_COLOUR, lw=1.6, label="y" + " (p)" * s),
+    rays = scene.rays
+    there = {
+        f"x of a frame{' (s)' * s}": ("-", X_COLOUR, True),
+        f"y{' (p)' * s}": ("-", Y_COLOUR, True),
+        "polarisation": ("-", ELLIPSE, any(_has_ellipse(ray) for ray in rays)),
+        "tap": ((0, (4, 2)), INK, any(ray.tap for ray in rays)),
+        "no light": (_DOTS, FAINT, any(ray.is_dark and not ray.leaves for ray in rays)),
+        "leaves the path": ("-", FAINT, any(ray.leaves for ray in rays)),
+    }
+    keys: list[Artist] = [
+        Line2D([], [], color=colour, lw=1.4, ls=dashes, label=label)
+        for label, (dashes, colour, is_drawn) in there.items()
+        if is_drawn
     ]
-    if any(_has_ellipse(ray) for ray in scene.rays):
-        results.append(Line2D([], [], color=ELLIPSE, lw=1.4, label="polarisation"))
-    if scene.planes:
-        results.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
-    if any(ray.tap for ray in scene.rays):
-        results.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
-    if any(ray.is_dark and not ray.leaves for ray in scene.rays):
-        results.append(Line2D([], [], color=FAINT, lw=1.0, ls=_DOTS, label="no light"))
-    if any(ray.leaves for ray in scene.rays):
-        results.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
-    return results
+    plane = Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence")
+    return [*keys, plane] if scene.planes else keys
 
 
 def _faces(ax: Axes, scene: Scene, view: View) -> None:
@@ -194,7 +191,9 @@ def _faces(ax: Axes, scene: Scene, view: View) -> None:
         _face(ax, points, colour, 0.3 if node.role != "plate" else 0.16, 2.0)
         _line(ax, np.concatenate([points, points[:1]]), color=colour, lw=0.9, zorder=2.1)
         if node.axis is not None:
-            _line(ax, view.points(axis_line(scene, node)), color=INK, lw=1.3, zorder=4.5)
+            reach = 1.3 * _RADIUS * scene.unit * node.axis
+            ends = view.points(np.array([node.at - reach, node.at + reach]))
+            _line(ax, ends, color=INK, lw=1.3, zorder=4.5)
         if node.role == "surface":
             end = node.at + _NORMAL * scene.unit * np.asarray(node.normal)
             normal = view.points(np.array([node.at, end]))
@@ -212,7 +211,7 @@ def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
         size = scene.unit * np.array(_ARROW)
         draw_head(ax, tip, way, size, fc=colour, zorder=4.2)
     if _has_ellipse(ray):
-        curve = view.points(_ellipse(ray))
+        curve = view.points((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
         _line(ax, curve, color=ELLIPSE, lw=1.4, zorder=5.0)
         if ray.turns:
             draw_turn(ax, curve, scene.unit, ELLIPSE, zorder=5.05)
@@ -241,10 +240,6 @@ def draw_turn(ax: Axes, curve: Numbers, unit: float, colour: str, zorder: float)
 
 def _has_ellipse(ray: SceneRay) -> bool:
     return ray.ellipse is not None and not ray.leaves
-
-
-def _ellipse(ray: SceneRay) -> Numbers:
-    return np.asarray((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
 
 
 def _angle(ax: Axes, angle: SceneAngle, view: View) -> None:
@@ -337,12 +332,6 @@ def outline(scene: Scene, node: SceneNode) -> Numbers:
     (left, low), (right, high) = places.min(axis=0) - half, places.max(axis=0) + half
     corners = [(left, low), (right, low), (right, high), (left, high)]
     return np.array([node.at + a * across + b * along for a, b in corners])
-
-
-def axis_line(scene: Scene, node: SceneNode) -> Numbers:
-    """Return the line along the axis of a plate. Shape: returns (2, 3)."""
-    reach = 1.3 * _RADIUS * scene.unit * np.asarray(node.axis)
-    return np.array([node.at - reach, node.at + reach])
 
 
 def prepared_sheet(ax: Axes, points: float, usual: float) -> tuple[float, Bbox]:

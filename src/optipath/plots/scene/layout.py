@@ -277,32 +277,22 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
 
 def _node(placing: Placing, name: str) -> SceneNode:
     posture, element = placing.postures[name], placing.wiring.elements[name]
+    axis = None
+    if posture.role == "plate" and has_axis(element):
+        angle = element.angle  # type: ignore[attr-defined]
+        if shown_angle(angle).there:
+            x, y, _ = posture.axes["in"].T
+            axis = np.cos(number(angle)) * x + np.sin(number(angle)) * y
     stands = placing.at[name], posture.normal, posture.across
-    return SceneNode(name, element.kind, *stands, posture.role, element, _axis(placing, name))
-
-
-def _axis(placing: Placing, name: str) -> Numbers | None:
-    """Return the axis of a plate that has one."""
-    posture, element = placing.postures[name], placing.wiring.elements[name]
-    if posture.role != "plate" or not has_axis(element):
-        return None
-    angle = element.angle  # type: ignore[attr-defined]
-    message = shown_angle(angle)
-    if not message.there:
-        return None
-    x, y, _ = posture.axes["in"].T
-    turned = number(angle)
-    return np.asarray(np.cos(turned) * x + np.sin(turned) * y)
+    return SceneNode(name, element.kind, *stands, posture.role, element, axis)
 
 
 def _ray(placing: Placing, each: LightOnLink) -> SceneRay:
     drawn = drawn_link(placing, each)
-    x, y, _ = rows = drawn.axes.T
-    dop = float(each.light.dop)
-    ellipse = None
+    rows, dop, ellipse = drawn.axes.T, float(each.light.dop), None
     if dop > 1e-9:  # Of NaN as well it is not told.
         points = ellipse_points(each.light, 49) * (LARGEST_ELLIPSE * placing.unit * min(dop, 1.0))
-        ellipse = points @ np.array([x, y])
+        ellipse = points @ rows[:2]
     ends = each.name, each.start, each.end, drawn.tail, drawn.head
     return SceneRay(*ends, rows, ellipse, each.light, not each.end, each.tap)
 
