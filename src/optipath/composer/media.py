@@ -54,8 +54,7 @@ class Media:
 
     @cached_property
     def _all(self) -> tuple[Agreement, ...]:
-        between = *self._media, *self._planes, *self._angles, *self._rounds, *self._arriving
-        return *between, *self._within
+        return *self._media, *self._between_layers, *self._arriving, *self._within
 
     @property
     def _media(self) -> tuple[SameMedium, ...]:
@@ -80,55 +79,40 @@ class Media:
         return tuple(filter(None, results.values()))
 
     @property
-    def _angles(self) -> tuple[SnellsLaw, ...]:
-        results: dict[Any, SnellsLaw] = {}
+    def _between_layers(self) -> Iterator[Agreement]:
+        """What must fit of turns and angles between parallel faces, and on the way to a mirror."""
+        planes: dict[Any, OnePlane] = {}
+        laws: dict[Any, SnellsLaw] = {}
+        rounds: dict[Any, Meeting] = {}
+        ways = []
         for meeting in self.meetings.in_layers:
             leaves, enters = meeting.leaves, meeting.enters
-            turns = () if meeting.sides in self.meetings.to_and_fro else meeting.turns
-            faces: Any = self.elements[leaves[0]], self.elements[enters[0]]
-            (angle, n), (own_angle, own_n) = (face.measured for face in faces)
+            first: Any = self.elements[leaves[0]]
+            second: Any = self.elements[enters[0]]
+            ends, turns = (".".join(leaves), ".".join(enters)), meeting.turns
+            follows = self._follows(enters[0], "incidence")
+            both_ways = meeting.sides in self.meetings.to_and_fro
+            if turns and (follows or both_ways):
+                operands = tuple(map(Operand, (first.incidence, *turns)))
+                plane = OnePlane(operands, *ends, follows)
+                planes.setdefault((leaves, enters, keys_of(turns)), plane)
+            if both_ways:
+                ways.append((rounds.setdefault(meeting.sides, meeting), meeting))
+                turns = ()
+            (angle, n), (own_angle, own_n) = first.measured, second.measured
             if not (are_same(angle, own_angle) and are_same(n, own_n)):
                 pairs = Operand(angle), *parts_of(n), Operand(own_angle), *parts_of(own_n)
-                operands = (*pairs, *map(Operand, turns))
-                if not any(operand.value is FOLLOWS for operand in operands):
-                    law = SnellsLaw(
-                        operands,
-                        ".".join(leaves),
-                        ".".join(enters),
-                        ends=self._ends(meeting),
-                        may_be_shown=self.meetings.may_be_shown(meeting),
-                        follows=self._follows(enters[0], "incidence"),
-                    )
-                    results.setdefault((meeting.sides, keys_of(turns)), law)
-        return tuple(results.values())
-
-    @property
-    def _planes(self) -> tuple[OnePlane, ...]:
-        results: dict[Any, OnePlane] = {}
-        for meeting in self.meetings.in_layers:
-            leaves, enters = meeting.leaves, meeting.enters
-            follows = self._follows(enters[0], "incidence")
-            if meeting.turns and (follows or meeting.sides in self.meetings.to_and_fro):
-                first: Any = self.elements[leaves[0]]
-                operands = tuple(map(Operand, (first.incidence, *meeting.turns)))
-                if not any(operand.value is FOLLOWS for operand in operands):
-                    plane = OnePlane(operands, ".".join(leaves), ".".join(enters), follows)
-                    results.setdefault((leaves, enters, keys_of(meeting.turns)), plane)
-        return tuple(results.values())
-
-    @property
-    def _rounds(self) -> tuple[SameTurn, ...]:
-        first: dict[Any, Meeting] = {}
-        both = self.meetings.to_and_fro
-        between = [meeting for meeting in self.meetings.in_layers if meeting.sides in both]
-        ways = [(first.setdefault(meeting.sides, meeting), meeting) for meeting in between]
-        results = []
+                shown, refracts = self.meetings.may_be_shown(meeting), self._ends(meeting)
+                law = SnellsLaw((*pairs, *map(Operand, turns)), *ends, refracts, shown, follows)
+                laws.setdefault((meeting.sides, keys_of(turns)), law)
+        for agreement in (*planes.values(), *laws.values()):
+            if not any(operand.value is FOLLOWS for operand in agreement.operands):
+                yield agreement
         for one, other in (*ways, *self.meetings.mirrored):
             if keys_of(one.turns) != keys_of(other.turns):
                 operands = tuple(map(Operand, (*one.turns, *other.turns)))
-                ends = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, other)]
-                results.append(SameTurn(operands, len(one.turns), *ends))
-        return tuple(results)
+                texts = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, other)]
+                yield SameTurn(operands, len(one.turns), *texts)
 
     @property
     def _in_space(self) -> Iterator[WorldAngle]:

@@ -120,7 +120,8 @@ class Meetings:
         Those whose plane of incidence is turned are among them, since their angles may be 0.
         """
         leaving: dict[Port, list[Meeting]] = {}
-        facing = [m for m in self._straight if m.sides not in self._explained]
+        explained = {meeting.sides for meeting in self._straight if self._is_shown(meeting)}
+        facing = [m for m in self._straight if m.sides not in explained]
         for meeting in facing:
             leaving.setdefault(meeting.leaves, []).append(meeting)
         both = self.to_and_fro
@@ -159,10 +160,6 @@ class Meetings:
     def in_space(self) -> list[Meeting]:
         """The meetings of two faces whose directions their frames in the world give."""
         return [m for m in self.all if self._of_faces(m) and self._is_in_space(m)]
-
-    @cached_property
-    def _explained(self) -> set[frozenset[Port]]:
-        return {meeting.sides for meeting in self._straight if self._is_shown(meeting)}
 
     def _is_shown(self, meeting: Meeting) -> bool:
         """Tell whether a face says that it is not parallel to the one before."""
