@@ -126,8 +126,11 @@ class _Chains:
     def program(self) -> Program:
         old, moved = self.old, self._resolved
         for lights, loop in old.stretches():
-            if loop is not None:
-                self._settle_before(loop)
+            # What enters a loop is there before, since its steps stand together.
+            for light in lights if loop else ():
+                for source in old.steps[light].inputs:
+                    if source < lights.start:
+                        moved(source)
             self._once = loop is None
             junctions = dict.fromkeys(sorted(loop.junctions) if loop else ())
             for junction in junctions:
@@ -145,13 +148,6 @@ class _Chains:
         }
         ends["sources"] = {name: (moved(at), frame) for name, (at, frame) in old.sources.items()}
         return self.builder.program(**ends)
-
-    def _settle_before(self, loop: Loop) -> None:
-        """Settle what enters a loop, since its steps stand together."""
-        for light in range(loop.start, loop.stop):
-            for source in self.old.steps[light].inputs:
-                if source < loop.start:
-                    self._resolved(source)
 
     def _of(self, light: int, step: Step) -> tuple[int, list[Item]]:
         if step.evaluation is None:

@@ -49,8 +49,15 @@ class Media:
 
     def faults(self) -> list[str]:
         """Return what does not fit of the values that are known, a sentence each."""
-        known = [agreement for agreement in self._all if not agreement.is_open]
-        return [*first_faults(known), *map(_wedge_fault, self.meetings.wedges)]
+        faults = first_faults([agreement for agreement in self._all if not agreement.is_open])
+        for meeting in self.meetings.wedges:
+            (name, _), (own, _) = meeting.leaves, meeting.enters
+            faults.append(
+                f"light goes to and fro between '{name}' and '{own}', which says parallel=False: "
+                f"what comes back has another incidence than the element has; leave parallel=False "
+                f"out, or add elements of their own for the light that comes back"
+            )
+        return faults
 
     @cached_property
     def _all(self) -> tuple[Agreement, ...]:
@@ -153,15 +160,6 @@ class Media:
         # A boundary in space has its angle by its points.
         has_one = isinstance(self.elements[port[0]], BoundaryElement)
         return has_one and face.measured[1] is face.outside
-
-
-def _wedge_fault(meeting: Meeting) -> str:
-    (name, _), (own, _) = meeting.leaves, meeting.enters
-    return (
-        f"light goes to and fro between '{name}' and '{own}', which says parallel=False: what "
-        f"comes back has another incidence than the element has; leave parallel=False out, or add "
-        f"elements of their own for the light that comes back"
-    )
 
 
 def index_of(value: Any) -> Operand:

@@ -386,7 +386,7 @@ class Constant(NamedTuple):
 
     def as_full(self) -> Constant:
         """Return the same with all sixteen entries."""
-        return Constant(FULL, tuple(float(entry) for row in self.rows() for entry in row))
+        return Constant(FULL, tuple([float(entry) for row in self.rows() for entry in row]))
 
     def then(self, later: Constant) -> Constant | None:
         """Return both as one of the same sort, no digit lost; None where they have none.
@@ -412,8 +412,8 @@ def multiplied(first: Constant, second: Constant) -> Constant | None:
     """Return two constants in the order of travel as one matrix; None if it is too faint."""
     one, other = first.as_full().numbers, second.as_full().numbers
     rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
-    product = tuple(a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns)
-    result = _unless_identity(Constant(FULL, product))
+    entries = [a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns]
+    result = _unless_identity(Constant(FULL, tuple(entries)))
     return result if result and result.lets_through else None
 
 
@@ -480,7 +480,7 @@ class _Multiplying:
         items, constants = [item for item, _ in run], [constant for _, constant in run]
         if not (self.matrices and len(run) > 1):
             return items
-        dear = sum(_KINDS[each.structure.name][1] for each in constants) > _KINDS[FULL.name][1]
+        dear = sum([_KINDS[each.structure.name][1] for each in constants]) > _KINDS[FULL.name][1]
         if not (dear and all(constant.lets_through for constant in constants)):
             return items
         results: list[tuple[Item, Constant]] = []

@@ -205,7 +205,7 @@ def stretches(ways: Ways) -> list[Stretch]:
     for port, later in ways.items():
         first = first_of.get(port, port)
         ends = [first_of.get(end, end) for end in later]
-        onwards.setdefault(first, []).extend(end for end in ends if end != first)
+        onwards.setdefault(first, []).extend([end for end in ends if end != first])
     return [loops.get(port) or Stretch((port,)) for port in _in_order(onwards)]
 
 

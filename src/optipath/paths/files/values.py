@@ -559,7 +559,10 @@ def _table(curve: Curve, depends_on: tuple[Any, ...], unit: str) -> dict[str, An
             table["span"] = [encode(end, WAVELENGTH.unit) for end in curve.span]
     else:
         raise PresetError(f"{curve.label} has no form in a preset file; give samples of it")
-    return table | _written_wavelength(depends_on[0])
+    when = depends_on[0]
+    if isinstance(when, Parameter) and when.name == _WHEN == when.quantity:
+        return table
+    return table | {_WHEN: encode(when, WAVELENGTH.unit)}
 
 
 def _crystal_of(curve: Curve) -> str:
@@ -596,9 +599,3 @@ def _sum(curve: CurveSum, depends_on: tuple[Any, ...], unit: str) -> dict[str, A
     if curve.constant:
         terms[0]["offset"] = encode(curve.constant, unit)
     return {_SUM: terms}
-
-
-def _written_wavelength(argument: Any) -> dict[str, Any]:
-    """Return the key of a wavelength; none for the parameter of that name."""
-    usual = isinstance(argument, Parameter) and argument.name == _WHEN == argument.quantity
-    return {} if usual else {_WHEN: encode(argument, WAVELENGTH.unit)}
