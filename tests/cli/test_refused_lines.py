@@ -119,6 +119,6 @@ def test_unknown_options_and_cases_are_told_with_all_there_are_and_all_faults_at
     for command in ("run", "show", "explain"):
         known = "is unknown in preset 'npgr026'; there are: 1, 2, 3, 4, 5, 6, 7, 8, 9"
         assert refused(f"{command} npgr026 --case 10") == f"case '10' {known}"
-    faults = refused("run npgr026 --delta 91 --n1 x --rho '3 dge' --case 99", lines=5)
-    for part in ("'delta' is 91 deg", "--n1", "did you mean 'deg'", "case '99'"):
+    faults = refused("run npgr026 --delta 91 --n1 x --rho '3 dge'", lines=4)
+    for part in ("'delta' is 91 deg", "--n1", "did you mean 'deg'"):
         assert part in faults
