@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.path_formula import lights_formula
+from optipath.engines.path_formula import PathFormula
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.values.operands import MANY
 from paths import chain
@@ -21,7 +21,7 @@ machine_code = pytest.importorskip("optipath.engines.machine_code")
 from optipath.engines.code_cache import CodeCache  # noqa: E402 - beside it
 from optipath.engines.formula import Formula  # noqa: E402
 from optipath.engines.llvm_engine import LlvmEngine, source  # noqa: E402
-from optipath.engines.machine_code import MachineCode, assembly, machine_code_of  # noqa: E402
+from optipath.engines.machine_code import MachineCode, machine_code_of, optimized  # noqa: E402
 from optipath.engines.numpy_engine import NumpyEngine  # noqa: E402
 from optipath.engines.symbols import SYMBOLIC, Recorder  # noqa: E402
 
@@ -131,8 +131,9 @@ def test_a_path_is_computed_many_at_a_time():
     metal = op.Material(op.Parameter("n"), op.Parameter("k"))
     plan = chain([op.Interface(metal, op.Parameter("a"))]).compose()
     forms = {operand.input_key: MANY for operand in plan.program.operands if not operand.known}
-    formula = lights_formula(plan.program, StokesCarrier, "float64", forms, plan.inputs.limits)
-    text = assembly(source(formula))
+    formula = PathFormula(plan.program, "float64", forms, plan.inputs.limits).lights(StokesCarrier)
+    module, machine = optimized(source(formula))
+    text = machine.emit_assembly(module)
     packed, single = text.count("mulpd"), text.count("mulsd")
     assert packed > 50
     # The rest of a batch that fills no vector is done one by one.

@@ -7,8 +7,7 @@ import pytest
 
 import optipath as op
 from optipath.elements.coupling import Coupling
-from optipath.engines.execute import execute
-from optipath.engines.program import Evaluation, Program, Reading, Result, Step
+from optipath.engines.program import Evaluation, Program, Reading, Result, Step, execute
 from optipath.engines.symbols import SYMBOLIC, Recorder
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.catalog import REFLECTION, UNPOLARIZED

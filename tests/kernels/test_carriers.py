@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.engines.execute import execute
+from optipath.engines.program import execute
 from optipath.kernels.carriers.carried import add, carry, stokes_of
 from optipath.kernels.carriers.carrier import (
     Carrier,

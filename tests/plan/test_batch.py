@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.engines.formula import stages
-from optipath.engines.path_formula import lights_formula
+from optipath.engines.path_formula import PathFormula
 from optipath.engines.symbols import Symbol
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.plan.reading import Layout, pieces, sliced
@@ -61,9 +61,9 @@ def test_the_last_stage_of_a_grid_has_nothing_of_the_interfaces_left_to_do():
     plan = op.load_preset("npgr026", **METAL, rho=0.2).compose()
     places = {"delta": 0, "phi": 1, "intensity": 1}
     forms = {InputKey(name): MANY for name in places}
-    axes = {f"{name} value": frozenset({place}) for name, place in places.items()}
-    given = plan.program, StokesCarrier, "float64", forms, plan.inputs.limits
-    whole = lights_formula(*given, axes=axes)
+    axes = {InputKey(name): frozenset({place}) for name, place in places.items()}
+    given = plan.program, "float64", forms, plan.inputs.limits, axes
+    whole = PathFormula(*given).lights(StokesCarrier)
     *_, last = parts = stages(whole, frozenset({0, 1}), 1)
     assert [part.axes for part in parts] == [{0}, {1}, {0, 1}]
     done = [step.operation for step in last.steps]

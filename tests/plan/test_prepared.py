@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.plan import batch_runner, runner
-from optipath.plan import prepared as preparing
-from optipath.plan import questions as formula_maker
+from optipath.plan import batches, runner
 from optipath.plan import runner as shared
 from paths import chain
 from tables import rows
@@ -34,7 +32,7 @@ def prepared(monkeypatch):
 
         return calling
 
-    maker = formula_maker.FormulaMaker
+    maker = runner.Runner
     monkeypatch.setattr(maker, "attempt", counted("formulas", maker.attempt))
     monkeypatch.setattr(runner, "Layout", counted("layouts", runner.Layout))
     return counts
@@ -79,7 +77,7 @@ def test_zero_is_a_number_like_others(prepared):
 
 
 def test_no_more_sorts_and_runners_are_kept_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(preparing, "MOST_CACHED", 2)
+    monkeypatch.setattr(batches, "MOST_CACHED", 2)
     plan = path().compose()
     for count in (2, 3, 4, 5, 6):
         plan.run(theta=np.linspace(0.1, 1.2, count))
@@ -93,7 +91,7 @@ def test_no_more_sorts_and_runners_are_kept_than_there_is_room_for(monkeypatch):
 
 
 def test_a_long_batch_is_looked_at_in_pieces(monkeypatch):
-    monkeypatch.setattr(batch_runner, "_AT_ONCE", 1000)
+    monkeypatch.setattr(batches, "_AT_ONCE", 1000)
     plan, theta = path().compose(), np.linspace(0.1, 1.2, 3500)
     whole = plan.run(theta=theta).stokes
     repeated = plan.run(theta=theta[1700:1701].repeat(2000)).stokes

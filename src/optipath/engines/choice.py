@@ -7,25 +7,39 @@ path as floats, by NumPy (plus an overhead per operation and batch) and by Numba
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any, Protocol
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
 
-from optipath.engines.float_engine import FloatEngine
-from optipath.engines.jax_engine import JaxEngine
+from optipath.engines.formula import Engine
 from optipath.engines.llvm_engine import LlvmEngine
 from optipath.engines.numpy_engine import NumpyEngine
 
 if TYPE_CHECKING:
-    from optipath.engines.engine import Engine
+    from optipath.engines.jax_path import JaxPath
 
 
-REGISTRY: dict[str, Engine[Any, Any]] = {
+class JaxEngine(Engine):
+    """Traces the steps of a program, so that it can be differentiated and run on a GPU."""
+
+    name = extra = "jax"
+
+    def compiled(self, formula: Any) -> JaxPath:
+        """Return the path of a program, a carrier, and a precision; each batch is compiled."""
+        if not self.is_installed:
+            raise self.missing
+        from optipath.engines.jax_path import JaxPath  # noqa: PLC0415 - an extra
+
+        return JaxPath(*formula)
+
+
+REGISTRY: dict[str, Engine] = {
     engine.name: engine for engine in (NumpyEngine(), LlvmEngine(), JaxEngine())
 }
 
 
 ENGINES = ("auto", *REGISTRY)
 
-FLOATS = FloatEngine.name
+FLOATS = "floats"
 """What runs one path, and a handful one by one: functions of plain Python floats."""
 
 NUMPY_STEPS = "numpy, step by step"
@@ -53,23 +67,10 @@ FORESIGHT = 8.0
 """A plan that has been given many paths is taken to be given so many times as many in all."""
 
 
-class Work(Protocol):
-    """What a batch may be run by."""
-
-    @property
-    def has_floats(self) -> bool:
-        """Whether a function of floats has been made."""
-
-    def operations(self, *, floats: bool) -> int | None:
-        """Return how many operations a path takes; None where no formula can be made."""
-
-    @property
-    def is_stored(self) -> bool:
-        """Whether the compiler's code of it is on disk."""
-
-
 class EngineChoice:
     """Chooses an engine for each batch of one kind, and keeps count of what others have cost.
+
+    The work is a `BatchKind`, or what says as much of itself.
 
     >>> EngineChoice("numpy", floats=True).of(10, ...)
     'numpy, step by step'
@@ -87,7 +88,7 @@ class EngineChoice:
         self._cost = 0.0
         self._looked = False
 
-    def of(self, count: int, work: Work, ahead: int = 0) -> str:
+    def of(self, count: int, work: Any, ahead: int = 0) -> str:
         """Return what runs so many paths."""
         if self.decided:
             return self.decided
@@ -106,7 +107,7 @@ class EngineChoice:
             self.decided = "numpy"
         return self.decided or (FLOATS if few else "numpy")
 
-    def _pays(self, operations: int, count: int, ahead: int, work: Work) -> bool:
+    def _pays(self, operations: int, count: int, ahead: int, work: Any) -> bool:
         """Tell whether the compiler is worth its while; one that is asked for by name is."""
         if self.engine != "auto":
             return True
@@ -120,19 +121,6 @@ class EngineChoice:
         return earned > compiling(operations)
 
 
-class _Unseen:
-    """Paths of which nothing is known but how many operations each takes."""
-
-    has_floats = is_stored = False
-
-    def __init__(self, length: int | None) -> None:
-        self.length = length
-
-    def operations(self, *, floats: bool) -> int | None:
-        del floats
-        return self.length
-
-
 def default_engine(
     engine: str, count: int, operations: int | None, *, floats: bool, dtype: str = "float64"
 ) -> str:
@@ -144,7 +132,12 @@ def default_engine(
     'numba'
     """
     choice = EngineChoice(engine, floats=floats, dtype=dtype, runs=SEVERAL)
-    return choice.of(count, _Unseen(operations))
+    unseen = SimpleNamespace(
+        has_floats=False,
+        is_stored=False,
+        operations=lambda *, floats: operations,  # noqa: ARG005
+    )
+    return choice.of(count, unseen)
 
 
 def cost(operations: int, count: int) -> float:

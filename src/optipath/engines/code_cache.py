@@ -6,7 +6,6 @@ import hashlib
 import logging
 import os
 import stat
-from collections import OrderedDict
 from contextlib import contextmanager, suppress
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -62,7 +61,7 @@ class CodeCache:
     """
 
     def __init__(self) -> None:
-        self._functions: OrderedDict[str, MachineCode] = OrderedDict()
+        self._functions: dict[str, MachineCode] = {}
         self._lock = RLock()
         self._warned: set[str] = set()
         self._tidied: set[Path] = set()
@@ -91,17 +90,15 @@ class CodeCache:
     def function(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         """Return the function of a text, compiled (and logged once) where it is not cached."""
         with self._lock:
-            if text not in self._functions:
-                self._functions[text] = self._loaded(text, compiled)
-            self._functions.move_to_end(text)
-            result = self._functions[text]
+            result = self._functions.pop(text, None) or self._loaded(text, compiled)
+            self._functions[text] = result
             try:
                 most = self.most_functions
             except CacheError as error:
                 most = 1
                 self.tell(str(error))
             while len(self._functions) > most:
-                self._functions.popitem(last=False)
+                del self._functions[next(iter(self._functions))]
             return result
 
     def _loaded(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:

@@ -7,11 +7,10 @@ does to arguments of some forms is recorded and made a function once, and a path
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.engines.engine import Engine
 from optipath.engines.formula import Formula
 from optipath.engines.symbols import (
     ONE_AXIS,
@@ -26,7 +25,7 @@ from optipath.kernels.kernel import is_defined_in
 from optipath.kernels.primitives import FLOAT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 
     from optipath.kernels.carriers.carried import Components, SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
@@ -52,25 +51,17 @@ _SPACE = {
 }
 
 
-class FloatEngine(Engine["Formula", "Callable[..., tuple[Any, ...] | None]"]):
-    """Runs one path; nobody asks for it by name, since it is the fastest for one."""
-
-    name = "floats"
-    precisions = ("float64",)
-
-    def compiled(self, formula: Formula) -> Callable[..., tuple[Any, ...] | None]:
-        """Return a function of floats: None or ArithmeticError, ValueError where it fails."""
-        return _maker(formula)()
+FloatPath: TypeAlias = "Callable[..., tuple[Any, ...] | None]"
 
 
-FLOAT_ENGINE = FloatEngine()
+def float_path(formula: Formula, known: Sequence[Symbol] = ()) -> Callable[..., FloatPath]:
+    """Return what makes a function of floats, for the inputs that are known.
 
-
-def _maker(formula: Formula, known: Sequence[Symbol] = ()) -> Callable[..., Callable[..., Any]]:
-    """Return the function that makes the function of a formula from the inputs that are known."""
+    It gives None, or raises ArithmeticError or ValueError, where the formula fails.
+    """
     space: dict[str, Any] = dict(_SPACE)
     exec(compile(source(formula, space, known), "<formula>", "exec"), space)  # noqa: S102 - our own
-    maker: Callable[..., Callable[..., Any]] = space["made"]
+    maker: Callable[..., FloatPath] = space["made"]
     return maker
 
 
@@ -80,24 +71,19 @@ def source(formula: Formula, space: dict[str, Any], known: Sequence[Symbol] = ()
     What follows from known inputs alone is computed once. What is used once is inlined, so choices
     are lazy.
     """
-    texts: dict[int, str] = {}
+    texts = {symbol.index: f"t{symbol.index}" for symbol in formula.needed}
     depth: dict[int, int] = {}
     lines: list[str] = []
     early = {symbol.index for symbol in known}
     first: list[str] = []
 
-    def written(operand: Any) -> str:
-        if not isinstance(operand, Symbol):
-            return f"({operand.item()!r})" if isinstance(operand, np.generic) else repr(operand)
-        return texts.get(operand.index, f"t{operand.index}")
+    def written(operands: Iterable[Any]) -> list[str]:
+        return [texts[o.index] if isinstance(o, Symbol) else _literal(o) for o in operands]
 
-    used_twice = {
-        o.index
-        for s in formula.steps
-        if s.operation in _TWICE
-        for o in s.operands
-        if isinstance(o, Symbol)
-    }
+    used_twice = set()
+    for step in formula.steps:
+        if step.operation in _TWICE:
+            used_twice.update([o.index for o in step.operands if isinstance(o, Symbol)])
     for step in formula.steps:
         if step.operation == "item":
             continue
@@ -106,29 +92,31 @@ def source(formula: Formula, space: dict[str, Any], known: Sequence[Symbol] = ()
             items = formula.items[step.index]
             which = tuple(sorted(items))
             space[f"f{step.index}"], needs = template.function(which, arguments)
-            given = ", ".join([written(arguments[place]) for place in needs])
+            given = ", ".join(written([arguments[place] for place in needs]))
             results = "".join([f"t{items[place]}, " for place in which])
             lines.append(f"{results}= f{step.index}({given})")
             continue
-        text = OPERATIONS[step.operation].text.format(*map(written, step.operands))
-        if early and all(o.index in early for o in step.operands if isinstance(o, Symbol)):
+        text = OPERATIONS[step.operation].text.format(*written(step.operands))
+        operands = [o.index for o in step.operands if isinstance(o, Symbol)]
+        deep = 1 + max([depth.get(index, 0) for index in operands])
+        if early.issuperset(operands):
             early.add(step.index)
             first.append(f"t{step.index} = {text}")
-            continue
-        deep = 1 + max(
-            (depth.get(o.index, 0) for o in step.operands if isinstance(o, Symbol)), default=0
-        )
-        if formula.uses[step.index] == 1 and step.index not in used_twice and deep < _DEEPEST:
+        elif formula.uses[step.index] == 1 and step.index not in used_twice and deep < _DEEPEST:
             texts[step.index] = f"({text})"
             depth[step.index] = deep
         else:
             lines.append(f"t{step.index} = {text}")
-    results = ", ".join(map(written, formula.results))
-    lines += [f"if {written(formula.holds)}:", f"    return ({results},)", "return None"]
-    made = ", ".join(f"t{s.index}" for s in known)
-    given = ", ".join(f"t{s.index}" for s in formula.inputs if s.index not in early)
-    first += [f"def path({given}):", *[f"    {line}" for line in lines], "return path"]
-    return f"def made({made}):\n" + "".join([f"    {line}\n" for line in first])
+    results = ", ".join(written(formula.results))
+    (holds,) = written([formula.holds])
+    given = ", ".join(written([s for s in formula.inputs if s.index not in early]))
+    body = [*lines, f"if {holds}:", f"    return ({results},)", "return None"]
+    first += [f"def path({given}):", *[f"    {line}" for line in body], "return path"]
+    return "\n    ".join([f"def made({', '.join(written(known))}):", *first]) + "\n"
+
+
+def _literal(number: Any) -> str:
+    return f"({number.item()!r})" if isinstance(number, np.generic) else repr(number)
 
 
 class Template:
@@ -175,7 +163,7 @@ class Template:
         if key not in self._makers:
             formula, places = self._part(which)
             symbols = dict(zip(places, formula.inputs, strict=True))
-            self._makers[key] = _maker(formula, [symbols[place] for place in known])
+            self._makers[key] = float_path(formula, [symbols[place] for place in known])
         return self._makers[key]
 
     def _part(self, which: tuple[int, ...]) -> tuple[Formula, tuple[int, ...]]:

@@ -1,4 +1,4 @@
-"""Formula: the numbers of a run as one list of operations, staged.
+"""Formula: the numbers of a run as one list of operations, staged, and the engines that run it.
 
 Near a right angle, a rounded angle loses the digits of its cosine: a formula of fewer digits is
 given both, the angle rounded and its remainder.
@@ -6,13 +6,17 @@ given both, the angle rounded and its remainder.
 
 from __future__ import annotations
 
+import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, reduce
-from typing import TYPE_CHECKING, Any
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
 from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, Symbol
+from optipath.errors import missing_extra
 from optipath.kernels.trigonometry import (
     DIGITS,
     any_quadrant,
@@ -23,8 +27,9 @@ from optipath.kernels.trigonometry import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
+    from optipath.errors import MissingExtraError
     from optipath.kernels.primitives import Primitives
     from optipath.kernels.trigonometry import Digits
     from optipath.values.operands import Operand
@@ -37,8 +42,8 @@ class Formula:
     dtype: np.dtype[Any]
     results: tuple[Any, ...]
     conditions: tuple[Any, ...] = ()
-    wide: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    constants: Mapping[str, Any] = field(default_factory=dict)
+    wide: Mapping[Any, tuple[float, float]] = field(default_factory=dict)
+    constants: Mapping[Any, Any] = field(default_factory=dict)
     axes: frozenset[int] = ONE_AXIS
     last: int | None = None
     earlier: frozenset[int] = frozenset()
@@ -86,21 +91,21 @@ class Formula:
     @cached_property
     def inputs(self) -> tuple[Symbol, ...]:
         """The numbers that are given, or computed before."""
-        return tuple(s for s in self.needed if s.operation == "input" or s.index in self.earlier)
+        return tuple([s for s in self.needed if s.operation == "input" or s.index in self.earlier])
 
     @cached_property
     def lefts(self) -> tuple[Symbol, ...]:
         """What is left, beside right angles, of angles that are given in more digits."""
-        return tuple(symbol for symbol in self.needed if symbol.operation.startswith("left"))
+        return tuple([symbol for symbol in self.needed if symbol.operation.startswith("left")])
 
     @cached_property
-    def unread(self) -> frozenset[str]:
+    def unread(self) -> frozenset[Any]:
         """The inputs of more digits that nothing reads, so that nothing checks their ranges."""
         return frozenset(self.wide) - {self.name_of(symbol) for symbol in self.inputs}
 
-    def name_of(self, symbol: Symbol) -> str:
+    def name_of(self, symbol: Symbol) -> Any:
         """Return what an input is called."""
-        return f"#{symbol.index}" if symbol.index in self.earlier else str(symbol.operands[0])
+        return f"#{symbol.index}" if symbol.index in self.earlier else symbol.operands[0]
 
     def place_of(self, symbol: Symbol) -> str:
         """Return where an input differs.
@@ -116,6 +121,11 @@ class Formula:
             return "row"
         return "column" if len(symbol.axes) == 1 else "cell"
 
+    @cached_property
+    def places(self) -> tuple[tuple[Any, str], ...]:
+        """What each input is called, and where it differs."""
+        return tuple([(self.name_of(s), self.place_of(s)) for s in self.inputs])
+
     def whole_of(self, left: Symbol) -> Symbol:
         """Return the input of which something is left."""
         # Symbols of earlier stages are no texts, and record what they are compared with.
@@ -126,12 +136,12 @@ class Formula:
     def steps(self) -> tuple[Symbol, ...]:
         """The operations on what is given."""
         arguments = {symbol.index for symbol in (*self.inputs, *self.lefts)}
-        return tuple(symbol for symbol in self.needed if symbol.index not in arguments)
+        return tuple([symbol for symbol in self.needed if symbol.index not in arguments])
 
     @cached_property
     def computed(self) -> tuple[Symbol, ...]:
         """The results that are not known, in order."""
-        return tuple(result for result in self.results if isinstance(result, Symbol))
+        return tuple([result for result in self.results if isinstance(result, Symbol)])
 
     @cached_property
     def uses(self) -> dict[int, int]:
@@ -146,12 +156,12 @@ class Formula:
     @cached_property
     def prologue(self) -> tuple[Symbol, ...]:
         """The operations on what is one number for the whole batch."""
-        return tuple(step for step in self.steps if step.uniform)
+        return tuple([step for step in self.steps if step.uniform])
 
     @cached_property
     def body(self) -> tuple[Symbol, ...]:
         """The operations on what differs from path to path."""
-        return tuple(step for step in self.steps if not step.uniform)
+        return tuple([step for step in self.steps if not step.uniform])
 
     @property
     def length(self) -> int:
@@ -265,3 +275,46 @@ def of_angle(
         return first_quadrant(xp, digits)(angle, left)[part == "cos"]
     value = any_quadrant(xp, digits)(angle, left)[part == "cos"]
     return without_rounding(xp, lambda _: value)(angle) if left is None else value
+
+
+class Engine(ABC):
+    """Makes a function of a formula: the one entry of an engine, in a file of its own.
+
+    JAX takes the steps of the program with their kernels instead: of a formula it would know
+    neither where a kernel ends, which XLA compiles by itself, nor what a slope is at an edge.
+    """
+
+    name: ClassVar[str]
+    extra: ClassVar[str] = ""
+    precisions: ClassVar[tuple[str, ...]] = ("float64", "float32")
+    longest: ClassVar[float] = math.inf
+
+    @abstractmethod
+    def compiled(self, formula: Any) -> Any:
+        """Return the function of a formula."""
+
+    def is_ready(self, formula: Any) -> bool:
+        """Tell whether a formula runs without compiling; of an extra it is not known here."""
+        del formula
+        return not self.extra
+
+    @property
+    def is_installed(self) -> bool:
+        """Whether what it needs is there, found without importing it."""
+        return not self.extra or find_spec(self.name) is not None
+
+    @property
+    def missing(self) -> MissingExtraError:
+        """The error that it is not installed."""
+        return missing_extra(f"plans of engine '{self.name}'", self.name)
+
+
+ArrayPath: TypeAlias = "Callable[[Range, Range, list[Any], Any, int], bool]"
+"""A formula that can be done to arrays.
+
+It is given a range of rows and of columns; the inputs in the order of the formula, each a number
+or an array along one axis (`Formula.place_of`); an array of shape (results, paths) to be filled;
+and its column for the first cell. It returns whether the formula holds for all of the range.
+"""
+
+Range: TypeAlias = tuple[int, int]

@@ -11,7 +11,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from optipath.engines.execute import execute
+from optipath.engines.program import execute
 from optipath.errors import ComposerError
 from optipath.kernels.carriers.carrier import Carrier, MatrixCarrier
 from optipath.kernels.primitives import NUMPY
@@ -38,70 +38,56 @@ class JaxPath:
         self.program = program
         self.carrier = carrier(JAX)
         self.dtype = dtype
-        self._lights = jax.jit(self._traced_lights, static_argnames=("batch", "absent"))
-        self._matrix = jax.jit(
-            self._traced_matrix, static_argnames=("batch", "absent", "source", "reading")
-        )
+        self._jitted = jax.jit(self._traced, static_argnames=("batch", "absent", "ends"))
         self._known_traced = any(operand.traced for operand in program.operands)
 
-    def lights(
-        self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], arguments: Mapping[str, Any]
-    ) -> tuple[list[Any], Any]:
-        """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
-
-        A component that is not read is NaN, and so is light that gains on each round.
-        """
-        values, absent = self._split(resolved, arguments)
-        with self._precision(values):
-            run = self._traced_lights if self._known_traced else self._lights
-            result, sound = run(values, batch=batch, absent=absent)
-        return list(result), sound
-
-    def matrix(
+    def run(
         self,
         resolved: Mapping[str, Resolved],
         batch: tuple[int, ...],
         arguments: Mapping[str, Any],
-        source: str,
-        reading: str,
-    ) -> Any:
-        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does."""
+        ends: tuple[str, str] | None = None,
+    ) -> tuple[list[Any], Any]:
+        """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
+
+        For a source and a reading, the Mueller matrices (..., 4, 4) from one to the other. What is
+        not read is NaN, and so is light that gains on each round.
+        """
         values, absent = self._split(resolved, arguments)
         with self._precision(values):
-            run = self._traced_matrix if self._known_traced else self._matrix
-            return run(values, batch=batch, absent=absent, source=source, reading=reading)
+            run = self._traced if self._known_traced else self._jitted
+            arrays, sound = run(values, batch=batch, absent=absent, ends=ends)
+        return list(arrays), sound
 
-    def _traced_lights(
-        self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
-    ) -> tuple[tuple[Any, ...], Any]:
-        operands = self._operands(values, absent)
-        result, solvers = self._stokes(operands, self.carrier, batch)
-        factor = self._factor(solvers, batch)[..., np.newaxis]
-        return tuple(factor * stokes for stokes in result.values()), _are_sound(solvers)
-
-    def _traced_matrix(
+    def _traced(
         self,
         values: Any,
         *,
         batch: tuple[int, ...],
         absent: frozenset[str],
-        source: str,
-        reading: str,
-    ) -> Any:
+        ends: tuple[str, str] | None,
+    ) -> tuple[tuple[Any, ...], Any]:
         operands = self._operands(values, absent)
-        columns: list[Any] = []
-        solvers: list[LoopSolver] = []
-        for column in np.eye(4, dtype=self.dtype):
-            emitted = {
-                step: tuple(map(self._number, column if name == source else 0.0 * column))
-                for name, (step, _) in self.program.sources.items()
-            }
-            result, others = self._stokes(operands, MatrixCarrier(JAX), batch, emitted)
-            columns.append(result[reading])
-            # All light gains no more than unpolarised light does, which has some of each.
-            solvers = solvers or others
-        factor = self._factor(solvers, batch)[..., np.newaxis, np.newaxis]
-        return factor * jnp.stack(columns, axis=-1), _are_sound(solvers)
+        if ends is None:
+            result, solvers = self._stokes(operands, self.carrier, batch)
+            arrays = [*result.values()]
+        else:
+            columns: list[Any] = []
+            solvers = []
+            for column in np.eye(4, dtype=self.dtype):
+                emitted = {
+                    step: tuple(map(self._number, column if name == ends[0] else 0.0 * column))
+                    for name, (step, _) in self.program.sources.items()
+                }
+                result, others = self._stokes(operands, MatrixCarrier(JAX), batch, emitted)
+                columns.append(result[ends[1]])
+                # All light gains no more than unpolarised light does, which has some of each.
+                solvers = solvers or others
+            arrays = [jnp.stack(columns, axis=-1)]
+        factor = self._factor(solvers, batch)
+        tails = ([1] * (array.ndim - factor.ndim) for array in arrays)
+        factors = (factor.reshape(*factor.shape, *tail) for tail in tails)
+        return tuple(map(jnp.multiply, factors, arrays)), _are_sound(solvers)
 
     def _factor(self, solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> Any:
         """Return 1 where light that goes round adds up, and NaN where it gains."""

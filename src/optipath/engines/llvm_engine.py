@@ -14,22 +14,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.engine import Engine
-from optipath.engines.formula import left_formula
+from optipath.engines.formula import Engine, left_formula
 from optipath.engines.numpy_engine import NumpyEngine
 from optipath.engines.symbols import OPERATIONS, Symbol, strongest
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.engines.engine import ArrayPath
-    from optipath.engines.formula import Formula
+    from optipath.engines.formula import ArrayPath, Formula
 
 
 _BLOCK = 512
 
 
-class LlvmEngine(Engine["Formula", "ArrayPath"]):
+class LlvmEngine(Engine):
     """Compiles a formula into machine code, which is kept for the next process."""
 
     name, extra = "numba", "fast"

@@ -37,7 +37,7 @@ def processor() -> tuple[str, str, str]:
 
 def machine_code_of(text: str) -> bytes:
     """Return the machine code of the function ``path`` of a module, which returns an integer."""
-    module, machine = _optimized(text)
+    module, machine = optimized(text)
     path = module.get_function("path")
     kinds = [str(argument.type) for argument in path.arguments]
     needs = [f.name for f in module.functions if f.is_declaration and "llvm." not in f.name]
@@ -45,14 +45,7 @@ def machine_code_of(text: str) -> bytes:
     return header.encode() + b"\n" + bytes(machine.emit_object(module))
 
 
-def assembly(text: str) -> str:
-    """Return what `machine_code_of` makes of a module, to be read by people."""
-    module, machine = _optimized(text)
-    result: str = machine.emit_assembly(module)
-    return result
-
-
-def _optimized(text: str) -> tuple[Any, Any]:
+def optimized(text: str) -> tuple[Any, Any]:
     """Return a module for this processor, its loops vectorized, and what writes its code."""
     _begin()
     _, cpu, features = processor()

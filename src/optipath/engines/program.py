@@ -1,4 +1,4 @@
-"""Program: a path as an ordered list of steps, with its loops, ready for an engine.
+"""Program: a path as an ordered list of steps, with its loops, and its execution.
 
 Lights are numbered by the step that makes them, evaluations and operands by their place. Every loop
 passes a junction, where lights add up; unit lights sent from each junction along the steps give a
@@ -27,7 +27,7 @@ from optipath.values.operands import Operation, ResultOf
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
 
-    from optipath.kernels.carriers.carried import Carried, Parts
+    from optipath.kernels.carriers.carried import Carried, Components, Parts
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.kernels.carriers.structures import Numbers
     from optipath.kernels.kernel import Kernel
@@ -142,7 +142,7 @@ class Program:
     @cached_property
     def taken_by_several(self) -> frozenset[int]:
         """The evaluations whose results several others are given."""
-        uses = Counter(taken for takes in self.takes for taken in takes)
+        uses = Counter([taken for takes in self.takes for taken in takes])
         return frozenset(taken for taken, count in uses.items() if count > 1)
 
     @cached_property
@@ -151,29 +151,25 @@ class Program:
         reads = {reading.components for reading in self.readings.values()}
         if self.loops or not self.counts or max(self.counts) > 2 or reads != {1}:
             return None
-        kernels = [evaluation.kernel.powers or evaluation.kernel for evaluation in self.evaluations]
-        evaluations = (
-            replace(evaluation, kernel=kernel)
-            for evaluation, kernel in zip(self.evaluations, kernels, strict=True)
-        )
-        return replace(self, evaluations=tuple(evaluations))
+        powers = [replace(e, kernel=e.kernel.powers or e.kernel) for e in self.evaluations]
+        return replace(self, evaluations=tuple(powers))
 
     @cached_property
     def light_uses(self) -> tuple[int, ...]:
         """How often each light is read, by a later step or by a detector."""
-        uses = Counter(light for step in self.steps for light in step.inputs)
+        uses = Counter([light for step in self.steps for light in step.inputs])
         uses.update(self.times_read)
         return tuple(uses[light] for light in range(len(self.steps)))
 
     @cached_property
     def times_read(self) -> Mapping[int, int]:
         """How often each light is read at an end, or kept."""
-        return Counter(reading.light for reading in self.readings.values())
+        return Counter([reading.light for reading in self.readings.values()])
 
     @cached_property
     def evaluation_uses(self) -> tuple[int, ...]:
         """How many steps need each evaluation."""
-        uses = Counter(step.evaluation for step in self.steps)
+        uses = Counter([step.evaluation for step in self.steps])
         return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
 
     @cached_property
@@ -423,3 +419,122 @@ def carrying(
     if carrier is StokesCarrier and program.for_powers is not None:
         return program.for_powers, IntensityCarrier(xp, float(np.finfo(dtype).tiny) * _SPARE)
     return program, carrier(xp)
+
+
+def itself(number: Any) -> Any:
+    """Return a number as it is."""
+    return number
+
+
+def execute(
+    program: Program,
+    operands: Sequence[Any],
+    carrier: Carrier,
+    emitted: Mapping[int, Components] | None = None,
+    number: Callable[[Any], Any] = itself,
+    shared: Mapping[int, Numbers] | None = None,
+    solvers: list[LoopSolver] | None = None,
+    meet: Callable[[Loop], LoopSolver] | None = None,
+) -> dict[int, tuple[Components, Any]]:
+    """Return the light of every reading, as four components and an exponent."""
+    reads: dict[int, int] = {}
+    for reading in program.readings.values():
+        reads[reading.light] = max(reading.components, reads.get(reading.light, 1))
+    loops = {loop.start: loop for loop in program.loops}
+    states: dict[int, Any] = {}
+    states_left = list(program.light_uses)
+    numbers: dict[int, Numbers] = dict(shared or {})
+    numbers_left = list(program.evaluation_uses)
+    results: dict[int, Numbers] = {}
+
+    def numbers_of(index: int) -> Numbers:
+        if index not in numbers:
+            numbers[index] = evaluated(program, index, operands, carrier, number, results)
+        return numbers[index]
+
+    def together(lights: Sequence[int]) -> Any:
+        return reduce(carrier.add, [states[light] for light in lights]) if lights else None
+
+    def met(loop: Loop) -> dict[int, Any]:
+        """Return the light at the junctions of a loop."""
+        solver = meet(loop) if meet else LoopSolver(program, loop, numbers_of, carrier.xp, number)
+        if solvers is not None:
+            solvers.append(solver)
+        steps = [(junction, program.steps[junction]) for junction in loop.junctions]
+        outside = {at: [light for light in step.inputs if light < loop.start] for at, step in steps}
+        arriving = {at: together(lights) for at, lights in outside.items() if lights}
+        return carrier.meet(solver, arriving)
+
+    def behind(light: int) -> Any:
+        """Return the light that a step makes."""
+        step, count = program.steps[light], program.count(light)
+        state = together(step.inputs)
+        if step.evaluation is None:
+            return state
+        numbers = numbers_of(step.evaluation)
+        structure = program.evaluations[step.evaluation].kernel.structure
+        if structure is None:
+            s0, s1, s2, s3 = numbers
+            return carrier.emit((s0, s1, s2, s3), count)
+        return carrier.act(structure, numbers, state, count)
+
+    for light, step in enumerate(program.steps):
+        if light in loops:
+            states |= met(loops[light])
+        if emitted is not None and light in emitted:
+            states[light] = carrier.emit(emitted[light], program.count(light))
+        # In a loop, some light is of use to the junctions alone, and they are known.
+        elif light not in states and states_left[light]:
+            states[light] = behind(light)
+        if step.evaluation is not None:
+            numbers_left[step.evaluation] -= 1
+            if not numbers_left[step.evaluation]:
+                numbers.pop(step.evaluation, None)
+        for source in step.inputs:
+            states_left[source] -= 1
+            if not states_left[source]:
+                states.pop(source, None)
+    return {light: carrier.read(states[light], count) for light, count in reads.items()}
+
+
+def whole_matrices(
+    program: Program,
+    operands: Sequence[Any],
+    carrier: Carrier,
+    number: Callable[[Any], Any] = itself,
+) -> dict[int, tuple[Any, ...]]:
+    """Return the values of evaluations of whole Mueller matrices, which `execute` may take."""
+    return {i: evaluated(program, i, operands, carrier, number) for i in program.matrices}
+
+
+def evaluated(
+    program: Program,
+    index: int,
+    operands: Sequence[Any],
+    carrier: Carrier,
+    number: Callable[[Any], Any] = itself,
+    results: dict[int, Numbers] | None = None,
+) -> tuple[Any, ...]:
+    """Return the numbers that an evaluation comes to."""
+    results = {} if results is None else results
+    evaluation, takes = program.evaluations[index], program.takes[index]
+    for taken in takes:
+        if taken not in results:
+            results[taken] = evaluated(program, taken, operands, carrier, results=results)
+    arguments = [
+        results[argument.evaluation][argument.place]
+        if type(argument) is Result
+        else operands[argument]  # type: ignore[index]
+        for argument in evaluation.arguments
+    ]
+    for taken in takes:
+        if taken not in program.taken_by_several:
+            del results[taken]
+    kernel, left = evaluation.kernel.specialised(arguments, is_zero)
+    numbers = carrier.evaluated(kernel, left)
+    structure = evaluation.kernel.structure
+    if evaluation.presence is not None and structure is not None:
+        present, where = operands[evaluation.presence], carrier.xp.where
+        pairs = zip(numbers, structure.identity, strict=True)
+        numbers = tuple([where(present, its, nothing) for its, nothing in pairs])
+    return tuple(map(number, numbers))

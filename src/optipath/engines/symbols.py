@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -143,8 +143,8 @@ class Recorder:
         self.kinds = {"bool": np.bool_, "int": np.int64, "float": dtype.type}
         self.symbols: list[Symbol] = []
         self.requirements: list[Any] = []
-        self.wide: dict[str, tuple[float, float]] = {}
-        self.constants: dict[str, Any] = {}
+        self.wide: dict[Any, tuple[float, float]] = {}
+        self.constants: dict[Any, Any] = {}
         self._known: dict[Any, Symbol] = {}
 
     def opaque(self, number: Any) -> Any:
@@ -157,7 +157,7 @@ class Recorder:
 
     def input(
         self,
-        name: str,
+        name: Any,
         kind: str = "float",
         *,
         axes: frozenset[int] = ONE_AXIS,
@@ -170,18 +170,32 @@ class Recorder:
     def record(self, operation: str, *operands: Any) -> Any:
         """Return what an operation comes to: a symbol, or a number where that is known."""
         about = OPERATIONS[operation]
-        operands = self._alike(operation, operands)
+        if operation == "where":
+            kind = strongest(operands[1:])
+            kinds: Any = ("bool", kind, kind)
+        elif operation == "ldexp":
+            kind, kinds = "float", ("float", "int")
+        else:
+            # Whole numbers beside others are made like them.
+            kind = "float" if about.kind == "float" else strongest(operands)
+            kinds = (kind,) * len(operands)
+        operands = tuple(
+            [
+                o if isinstance(o, Symbol) else self.kinds[its](o)
+                for o, its in zip(operands, kinds, strict=True)
+            ]
+        )
         symbols = [operand for operand in operands if isinstance(operand, Symbol)]
         if not symbols:
             with np.errstate(all="ignore"):
                 return about.ufunc(*operands)[()]
-        result = simplified(operation, operands)
-        if result is not UNKNOWN:
-            return result
+        rule = _RULES.get(operation)
+        if rule is not None and (simpler := rule(*operands)) is not None:
+            return simpler
         names: Any = tuple(map(key_of, operands))
         if about.commutes:
             names = frozenset(names)
-        kind = strongest(operands[-2:]) if about.kind == "same" else about.kind
+        kind = kind if about.kind == "same" else about.kind
         axes = frozenset().union(*[symbol.axes for symbol in symbols])
         symbol = self.entered((operation, names), operation, operands, kind, axes)
         symbol.positive = kind == "float" and stays_positive(operation, operands)
@@ -191,21 +205,6 @@ class Recorder:
         """Note what must be true for the formula to hold."""
         if not any(condition is known for known in self.requirements):
             self.requirements.append(condition)
-
-    def _alike(self, operation: str, operands: tuple[Any, ...]) -> tuple[Any, ...]:
-        """Return the operands, whole numbers beside others made like them."""
-        if operation == "ldexp":
-            return self._number(operands[0], "float"), self._number(operands[1], "int")
-        if operation == "where":
-            return self._number(operands[0], "bool"), *self._alike("", operands[1:])
-        is_float = OPERATIONS.get(operation, _SAME).kind == "float"
-        kind = "float" if is_float else strongest(operands)
-        return tuple([self._number(operand, kind) for operand in operands])
-
-    def _number(self, value: Any, kind: str) -> Any:
-        if isinstance(value, Symbol):
-            return value
-        return self.kinds[kind](value)
 
     def entered(
         self, key: Any, operation: str, operands: tuple[Any, ...], kind: str, axes: frozenset[int]
@@ -218,9 +217,6 @@ class Recorder:
         return self._known[key]
 
 
-_SAME = OPERATIONS["add"]
-
-
 def key_of(operand: Any) -> Any:
     """Return what tells an operand from others: the place of a symbol, the digits of a number."""
     if isinstance(operand, Symbol):
@@ -231,29 +227,14 @@ def key_of(operand: Any) -> Any:
 
 def strongest(operands: Iterable[Any]) -> str:
     """Return the kind of what an operation on numbers of several kinds gives."""
-    kinds = set(map(_kind, operands))
-    return next(name for name in ("float", "int", "bool") if name in kinds)
+    kinds = [o.kind if isinstance(o, Symbol) else _kind(o) for o in operands]
+    return "float" if "float" in kinds else "int" if "int" in kinds else "bool"
 
 
-def _kind(operand: Any) -> str:
-    if isinstance(operand, Symbol):
-        return operand.kind
-    if isinstance(operand, (bool, np.bool_)):
+def _kind(number: Any) -> str:
+    if isinstance(number, (bool, np.bool_)):
         return "bool"
-    return "int" if isinstance(operand, (int, np.integer)) else "float"
-
-
-UNKNOWN = object()
-"""What `simplified` returns where nothing is simpler."""
-
-
-def simplified(operation: str, operands: tuple[Any, ...]) -> Any:
-    """Return the operand or number that an operation comes to, or `UNKNOWN`.
-
-    A product with 0 is 0: numbers that are not finite are detected in the intensity they reach.
-    """
-    rule = _RULES.get(operation)
-    return UNKNOWN if rule is None else rule(*operands)
+    return "int" if isinstance(number, (int, np.integer)) else "float"
 
 
 def is_number(operand: Any, value: float) -> bool:
@@ -284,10 +265,25 @@ def stays_positive(operation: str, operands: tuple[Any, ...]) -> bool:
     return False
 
 
+Rule: TypeAlias = "Callable[..., Any]"
+"""Returns the operand or number that an operation comes to; None where nothing is simpler.
+
+A product with 0 is 0: numbers that are not finite are detected in the intensity they reach.
+"""
+
+
+def _either(rule: Rule) -> Rule:
+    """Return the rule of an operation whose operands may be exchanged."""
+
+    def either(a: Any, b: Any) -> Any:
+        result = rule(a, b)
+        return rule(b, a) if result is None else result
+
+    return either
+
+
 def _add(a: Any, b: Any) -> Any:
-    if is_number(a, 0.0):
-        return b
-    return a if is_number(b, 0.0) else UNKNOWN
+    return b if is_number(a, 0.0) else None
 
 
 def _subtract(a: Any, b: Any) -> Any:
@@ -299,109 +295,78 @@ def _subtract(a: Any, b: Any) -> Any:
         condition, yes, no = b.operands
         if yes is a:
             return b.recorder.record("where", condition, no, a)
-    return UNKNOWN
+    return None
 
 
 def _multiply(a: Any, b: Any) -> Any:
-    for one, other in ((a, b), (b, a)):
-        if is_number(one, 0.0):
-            return one * 0.0 if one.dtype.kind == "i" else abs(one)
-        if is_number(one, 1.0):
-            return other
-    return UNKNOWN
+    if is_number(a, 0.0):
+        return a * 0.0 if a.dtype.kind == "i" else abs(a)
+    return b if is_number(a, 1.0) else None
 
 
 def _divide(a: Any, b: Any) -> Any:
     if is_number(a, 0.0):
         return abs(a)
-    return a if is_number(b, 1.0) else UNKNOWN
-
-
-def _negative(a: Any) -> Any:
-    return a.operands[0] if a.operation == "negative" else UNKNOWN
-
-
-def _absolute(a: Any) -> Any:
-    return a if a.positive else UNKNOWN
+    return a if is_number(b, 1.0) else None
 
 
 def _where(condition: Any, yes: Any, no: Any) -> Any:
     if not isinstance(condition, Symbol):
         return yes if condition else no
-    alike = yes is no or (
-        not isinstance(yes, Symbol) and not isinstance(no, Symbol) and bool(yes == no)
-    )
-    return yes if alike else UNKNOWN
+    numbers = not isinstance(yes, Symbol) and not isinstance(no, Symbol)
+    return yes if yes is no or (numbers and bool(yes == no)) else None
 
 
 def _and(a: Any, b: Any) -> Any:
-    for one, other in ((a, b), (b, a)):
-        if not isinstance(one, Symbol):
-            return other if one else np.False_
-    return a if a is b else UNKNOWN
+    if not isinstance(a, Symbol):
+        return b if a else np.False_
+    return a if a is b else None
 
 
 def _or(a: Any, b: Any) -> Any:
-    for one, other in ((a, b), (b, a)):
-        if not isinstance(one, Symbol):
-            return np.True_ if one else other
-    return a if a is b else UNKNOWN
-
-
-def _less(a: Any, b: Any) -> Any:
-    """Nothing that is not negative is less than 0."""
-    return np.False_ if is_number(b, 0.0) and is_positive(a) else UNKNOWN
-
-
-def _greater_equal(a: Any, b: Any) -> Any:
-    return np.True_ if is_number(b, 0.0) and is_positive(a) else UNKNOWN
-
-
-def _equal(a: Any, b: Any) -> Any:
-    return np.True_ if a is b and a.kind == "bool" else UNKNOWN
+    if not isinstance(a, Symbol):
+        return np.True_ if a else b
+    return a if a is b else None
 
 
 def _maximum(a: Any, b: Any) -> Any:
-    for one, other in ((a, b), (b, a)):
-        if is_number(other, 0.0):
-            if is_positive(one):
-                return one
-            if one.operation == "negative" and is_positive(one.operands[0]):
-                return other
-    return a if a is b else UNKNOWN
+    if is_number(b, 0.0):
+        if is_positive(a):
+            return a
+        if a.operation == "negative" and is_positive(a.operands[0]):
+            return b
+    return a if a is b else None
 
 
 def _minimum(a: Any, b: Any) -> Any:
-    for one, other in ((a, b), (b, a)):
-        if is_number(other, 0.0) and is_positive(one):
-            return other
-    return a if a is b else UNKNOWN
+    return b if a is b or (is_number(b, 0.0) and is_positive(a)) else None
 
 
-def _fixed(a: Any) -> Any:
-    return a
+def _against_zero(result: Any) -> Rule:
+    """Return the rule of comparing what is not negative with 0."""
+    return lambda a, b: result if is_number(b, 0.0) and is_positive(a) else None
 
 
 def _power(a: Any, b: Any) -> Any:
     if is_number(b, 1.0):
         return a
-    return a * a if is_number(b, 2.0) else UNKNOWN
+    return a * a if is_number(b, 2.0) else None
 
 
-_RULES: dict[str, Callable[..., Any]] = {
-    "absolute": _absolute,
-    "add": _add,
+_RULES: dict[str, Rule] = {
+    "absolute": lambda a: a if a.positive else None,
+    "add": _either(_add),
     "divide": _divide,
-    "equal": _equal,
-    "fixed": _fixed,
-    "greater_equal": _greater_equal,
-    "less": _less,
-    "logical_and": _and,
-    "logical_or": _or,
-    "maximum": _maximum,
-    "minimum": _minimum,
-    "multiply": _multiply,
-    "negative": _negative,
+    "equal": lambda a, b: np.True_ if a is b and a.kind == "bool" else None,
+    "fixed": lambda a: a,
+    "greater_equal": _against_zero(np.True_),
+    "less": _against_zero(np.False_),
+    "logical_and": _either(_and),
+    "logical_or": _either(_or),
+    "maximum": _either(_maximum),
+    "minimum": _either(_minimum),
+    "multiply": _either(_multiply),
+    "negative": lambda a: a.operands[0] if a.operation == "negative" else None,
     "power": _power,
     "subtract": _subtract,
     "where": _where,

@@ -35,7 +35,6 @@ from optipath.paths.editing import (
     turn_to,
     turns_to,
 )
-from optipath.plan.inputs import LargeAngles
 from optipath.values.arrays import changed, same
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values
@@ -93,7 +92,7 @@ def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> 
     faults += result.faults
     if faults:
         raise ParameterError(*faults)
-    LargeAngles(inputs).look(values)
+    inputs.warn_of_angles(values)
     return result
 
 

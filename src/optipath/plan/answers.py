@@ -1,29 +1,35 @@
-"""Answers: the runners of a plan, and which source or detector is meant."""
+"""Answers: the runners of a plan, and the frames and wavelengths of the light at its outlets."""
 
 from __future__ import annotations
 
+from contextlib import suppress
+from copy import deepcopy
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frame import Frame
 from optipath.light.light import Light
-from optipath.plan.inputs import LargeAngles
-from optipath.plan.noise import noise_at
-from optipath.plan.outlets import LaterFrame, LaterWavelength, wavelengths_among
-from optipath.plan.questions import BoundsQuestion, ErrorsQuestion, LightQuestion, MatrixQuestion
-from optipath.plan.reading import RunOptions
-from optipath.plan.runner import runner_for
+from optipath.plan.certificate import Approximation
+from optipath.plan.noise import NoiseInterpreter, noise_at
+from optipath.plan.questions import BoundsQuestion, LightQuestion, MatrixQuestion
+from optipath.plan.reading import pieces, sliced
+from optipath.plan.runner import RunOptions, runner_for
+from optipath.values.arrays import locked
+from optipath.values.jax_values import is_traced
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from optipath.elements.vertex_place import VertexFrame
-    from optipath.engines.program import Program, Reading
-    from optipath.plan.approximation import Approximation
+    from optipath.engines.program import Program
     from optipath.plan.certificate import Certificate
-    from optipath.plan.noise import NoiseInterpreter
+    from optipath.plan.inputs import Inputs
     from optipath.plan.runner import Runner
+    from optipath.values.parameters import Parameter
 
 
 class Answers:
@@ -31,7 +37,6 @@ class Answers:
 
     def __init__(self, plan: Any) -> None:
         self.plan = plan
-        self.large_angles = LargeAngles(plan.inputs)
         self.question = LightQuestion(plan.program)
         self.wavelengths = wavelengths_among(plan.inputs)
         self.light = self._run_by(plan.program, unreduced=plan.reduction.unreduced)
@@ -44,8 +49,6 @@ class Answers:
     @cached_property
     def noise(self) -> NoiseInterpreter:
         """What finds the noise of light."""
-        from optipath.plan.noise import NoiseInterpreter  # noqa: PLC0415 - hardly ever needed
-
         return NoiseInterpreter(self.plan.whole, self.light.dtype)
 
     @cached_property
@@ -54,11 +57,9 @@ class Answers:
         instead = self.plan.instead
         if instead is None:
             return None
-        from optipath.plan.approximation import Approximation  # noqa: PLC0415 - hardly ever needed
-
         program = self.plan.reduction.by(instead.model).program
         cheap = None if instead.model == "scalar" else self._run_by(program)
-        errors = ErrorsQuestion(self.plan.whole, instead.model)
+        errors = BoundsQuestion(self.plan.whole, instead.model)
         return Approximation(self.whole, errors, self.light, cheap, instead.most)
 
     @property
@@ -72,18 +73,27 @@ class Answers:
 
     def stream(self, size: int, parameters: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:
         """Yield the index of each part of a batch, and the light at every end for it."""
-        self.large_angles.look(parameters)
-        return (self.approximation or self.light).stream(self.question, size, parameters)
+        self.plan.inputs.warn_of_angles(parameters)
+        if self.light.for_jax.is_requested(parameters):
+            raise ParameterError(
+                "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
+            )
+        runner = self.approximation or self.light
+        argument = runner.read(parameters)
+        for piece in pieces(argument.shape, size):
+            part = argument.part(piece.where)
+            lights = runner.answer_for(self.question, part, parameters, ahead=argument.paths)
+            yield piece.where, dict(lights)
 
-    def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Any:
-        """Return the Mueller matrices from a source to a reading. Shape: returns (..., 4, 4)."""
-        self.large_angles.look(parameters)
-        question = MatrixQuestion(self.plan.whole, source, reading)
+    def matrix(self, source: str, end: str, parameters: Mapping[str, Any]) -> Any:
+        """Return the Mueller matrices from a source to an end. Shape: returns (..., 4, 4)."""
+        self.plan.inputs.warn_of_angles(parameters)
+        question = MatrixQuestion(self.plan.whole, source, end)
         return self.whole.answer(question, parameters)
 
     def certificates(self, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
         """Return the certificate of every end."""
-        self.large_angles.look(parameters)
+        self.plan.inputs.warn_of_angles(parameters)
         argument = self.whole.read_for_bounds(parameters)
         return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), argument, parameters))
 
@@ -91,20 +101,25 @@ class Answers:
         self, lights: Mapping[str, Any], parameters: Mapping[str, Any], where: Any = ()
     ) -> dict[str, Light]:
         """Return the light at every end in its frame."""
-        results = {}
-        by = self.wavelengths
-        later = LaterWavelength(by, self.plan.inputs, parameters, where) if by else None
-        for name, reading in self.plan.program.readings.items():
-            frame = self.framed(reading.frame, parameters, where)
-            noise = (noise_at, self, name, parameters, where)
-            results[name] = Light.of(lights[name], frame, noise=noise, wavelength=later)
-        return results
+        return {
+            name: self.as_light(parameters, lights[name], reading.frame, where, name)
+            for name, reading in self.plan.program.readings.items()
+        }
 
-    def as_light(self, parameters: Mapping[str, Any], stokes: Any, frame: Any) -> Light:
-        """Return light of Stokes vectors (..., 4), with the frame and wavelengths of a run."""
-        by = self.wavelengths
-        later = LaterWavelength(by, self.plan.inputs, parameters) if by else None
-        return Light.of(stokes, self.framed(frame, parameters), wavelength=later)
+    def as_light(
+        self,
+        parameters: Mapping[str, Any],
+        stokes: Any,
+        frame: Any,
+        where: Any = (),
+        end: str | None = None,
+    ) -> Light:
+        """Return light with the frame and wavelengths of a run; of an end, with its noise."""
+        by, inputs = self.wavelengths, self.plan.inputs
+        later = LaterWavelength(by, inputs, parameters, where) if by else None
+        noise = None if end is None else (noise_at, self, end, parameters, where)
+        frame = self.framed(frame, parameters, where)
+        return Light.of(stokes, frame, noise=noise, wavelength=later)
 
     def framed(
         self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()
@@ -142,3 +157,110 @@ def by_place(ends: tuple[Any, ...], unnamed: tuple[Any, ...]) -> tuple[Any, ...]
     ((), (0.3, 0.2))
     """
     return (*[end for end in ends if not isinstance(end, str | None)], *unnamed)
+
+
+class _Later:
+    """What is made of the values of a run when somebody asks for it, once."""
+
+    def __init__(
+        self, inputs: Inputs, parameters: Mapping[str, Any], names: Iterable[str], where: Any
+    ) -> None:
+        self.inputs = inputs
+        self.where = where
+        # The batch, of which the light is a part, depends on all of them.
+        own = parameters if where else parameters.keys() & names
+        self.parameters = {name: kept(parameters[name]) for name in own}
+
+    def value(self, name: str) -> Any:
+        """Return what was given for a parameter, or its default."""
+        return self.parameters.get(name, {**self.inputs.bound, **self.inputs.open}[name].default)
+
+    def part(self, numbers: Any) -> Any:
+        """Return the numbers of a part of the batch, if the light is of one."""
+        if not self.where:
+            return numbers
+        return sliced(numbers, self._batch, self.where)
+
+    @cached_property
+    def _batch(self) -> tuple[int, ...]:
+        return self.inputs.resolve(self.parameters)[1]
+
+
+class LaterFrame(_Later):
+    """Makes a frame out of what a run was given."""
+
+    def __init__(
+        self, frame: VertexFrame, inputs: Inputs, parameters: Mapping[str, Any], where: Any = ()
+    ) -> None:
+        super().__init__(inputs, parameters, frame.names, where)
+        self.frame = frame
+
+    def __call__(self) -> Frame:
+        """Return the frame."""
+        return self._made
+
+    @cached_property
+    def _made(self) -> Frame:
+        names = self.frame.names
+        arguments = {name: self.inputs.numbers_for(name, self.value(name)) for name in names}
+        return self.frame.frame(arguments, self.part if self.where else np.asarray)
+
+
+def kept(value: Any) -> Any:
+    """Return a value that was given, or a copy of what somebody may change.
+
+    >>> given = np.ones(2)
+    >>> kept(given) is given, kept(0.5)
+    (False, 0.5)
+    """
+    if isinstance(value, np.ndarray):
+        return value.copy() if value.flags.writeable else value
+    with suppress(RecursionError, MemoryError):  # What is too much is refused by the run.
+        return deepcopy(value) if isinstance(value, list) else value
+    return value
+
+
+USUAL = "wavelength"
+"""The name that the wavelength of a path has."""
+
+
+def wavelengths_among(inputs: Inputs) -> tuple[Parameter, ...]:
+    """Return the parameters by which light may have its wavelength."""
+    several = {**inputs.bound, **inputs.open}
+    if inputs.per_nanometre:
+        return tuple([several[name] for name in inputs.per_nanometre])
+    usual = several.get(USUAL)
+    if inputs.dimensions.get(USUAL, "length") != "length":
+        usual = None
+    return tuple([one for one in several.values() if one is usual or isinstance(one, Wavelength)])
+
+
+class LaterWavelength(_Later):
+    """Finds the wavelengths of light in what a run was given."""
+
+    def __init__(
+        self,
+        among: tuple[Parameter, ...],
+        inputs: Inputs,
+        parameters: Mapping[str, Any],
+        where: Any = (),
+    ) -> None:
+        super().__init__(inputs, parameters, (among[0].name,), where)
+        self.among = among
+
+    def __call__(self) -> Any:
+        """Return the wavelengths, in metres; they broadcast to the batch. None if in doubt."""
+        return None if self.in_doubt else self._wavelength
+
+    @property
+    def in_doubt(self) -> tuple[str, ...]:
+        """The names of the parameters that may all give them; none where one does."""
+        return tuple([one.name for one in self.among]) if len(self.among) > 1 else ()
+
+    @cached_property
+    def _wavelength(self) -> Any:
+        (parameter,) = self.among
+        result, present = parameter.resolve(self.value(parameter.name))
+        result = result if np.all(present) else np.where(present, result, np.nan)
+        result = self.part(result)
+        return result if is_traced(result) else locked(np.array(result, np.float64))

@@ -12,14 +12,14 @@ from optipath.engines.choice import LARGE, batches
 from optipath.errors import ParameterError, listed
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import FULL, ROTATION
-from optipath.plan.questions import LONGEST
+from optipath.plan.runner import LONGEST
 from optipath.values.arrays import joint_shape
 from optipath.values.operands import MANY
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-    from optipath.engines.program import Program, Reduction
+    from optipath.engines.program import Loop, Program, Step
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.certificate import Certificate
     from optipath.plan.inputs import Inputs
@@ -49,7 +49,7 @@ class ExplainedLoop:
     layered: bool
 
     def __str__(self) -> str:
-        places = ", ".join(self.places[:_FEW]) + (", ..." if len(self.places) > _FEW else "")
+        places = _first_few(self.places)
         how = "added layer after layer" if self.layered else "summed over all rounds"
         return f"light goes round at {places}: {how}, {_count(self.unknowns, 'unknown')}"
 
@@ -77,8 +77,8 @@ class Explanation:
         return asdict(self)
 
     def __str__(self) -> str:
+        manner, tolerance = self.manner, self.tolerance
         counted = [_count(n, what) for what, n in self.counts.items() if n or what != "dump"]
-        manner = self.manner
         words = [f"{name} {manner[name]}" for name in ("method", "model", "engine")]
         words.append(manner["dtype"])
         if manner["composing"] == "jones":
@@ -91,68 +91,39 @@ class Explanation:
             f"{', '.join(counted)}; {', '.join(words)}",
             f"model {manner['model']}: {self.reason}",
             "",
-            *self._heading(),
+        ]
+        if tolerance is not None and tolerance["otherwise"] != tolerance["model"]:
+            lines.append(f"steps of the exact model {tolerance['otherwise']}:")
+        lines += [
             *_step_lines(self.steps),
             "",
             *_shortened(reads, "readings", _SHOWN),
             *_shortened(list(map(str, self.loops)), "loops", _FEW),
-            *self._cost(),
-            *self._bounds(),
-            *_shortened([f"folded: {sentence}" for sentence in self.folded], "folds", _FEW),
-            *self.notes,
-            *_shortened(self.parameters, "parameters", _SHOWN),
         ]
-        return "\n".join(lines)
-
-    def _heading(self) -> list[str]:
-        if self.tolerance is None or self.tolerance["otherwise"] == self.tolerance["model"]:
-            return []
-        return [f"steps of the exact model {self.tolerance['otherwise']}:"]
-
-    def _cost(self) -> list[str]:
-        if self.operations is None:
-            return []
-        plan, full = (_operations(self.operations[name]) for name in ("plan", "full"))
-        return [f"operations per path: {plan}; of the full 4x4 composition: {full}"]
-
-    def _bounds(self) -> list[str]:
-        lines = []
-        if self.tolerance is not None:
-            lines.append(f"tolerance {self.tolerance['most']:g}: {self.tolerance['text']}")
+        if self.operations is not None:
+            plan, full = (_operations(self.operations[name]) for name in ("plan", "full"))
+            lines.append(f"operations per path: {plan}; of the full 4x4 composition: {full}")
+        if tolerance is not None:
+            lines.append(f"tolerance {tolerance['most']:g}: {tolerance['text']}")
         if self.certificate is not None:
             lines.append(f"certificate: {self.certificate['text']}")
-        return lines
+        folded = [f"folded: {sentence}" for sentence in self.folded]
+        lines += _shortened(folded, "folds", _FEW)
+        return "\n".join([*lines, *self.notes, *_shortened(self.parameters, "parameters", _SHOWN)])
 
 
-def steps_of(reduction: Reduction) -> tuple[ExplainedStep, ...]:
-    """Return the steps of a reduced program in words."""
-    program = reduction.program
-    return tuple(
-        ExplainedStep(light, step.label, _action(program, light), tuple(f"S{i}" for i in live))
-        for light, (step, live) in enumerate(zip(program.steps, reduction.live, strict=True))
+def _loop(program: Program, loop: Loop) -> ExplainedLoop:
+    """Return a loop in words; one in which nothing mixes s and p is added layer after layer."""
+    evaluations = [program.steps[at].evaluation for at in range(loop.start, loop.stop)]
+    kernels = [program.evaluations[index].kernel for index in evaluations if index is not None]
+    return ExplainedLoop(
+        tuple(program.steps[junction].label for junction in loop.junctions),
+        sum(map(program.count, loop.junctions)),
+        loop.layered and not any(kernel.structure in (ROTATION, FULL) for kernel in kernels),
     )
 
 
-def explained_loops(program: Program) -> Iterator[ExplainedLoop]:
-    """Yield the loops of a program in words."""
-    for loop in program.loops:
-        yield ExplainedLoop(
-            tuple(program.steps[junction].label for junction in loop.junctions),
-            sum(map(program.count, loop.junctions)),
-            loop.layered and not any(_turns(program, at) for at in range(loop.start, loop.stop)),
-        )
-
-
-def _turns(program: Program, light: int) -> bool:
-    """Tell whether a step mixes the polarisations along and across the plane of incidence."""
-    evaluation = program.steps[light].evaluation
-    if evaluation is None:
-        return False
-    structure = program.evaluations[evaluation].kernel.structure
-    return structure in (ROTATION, FULL)
-
-
-def parameter_lines(inputs: Inputs) -> tuple[str, ...]:
+def _parameter_lines(inputs: Inputs) -> tuple[str, ...]:
     """Return the parameters of a plan, and what follows from them, a sentence each."""
     bound = [f"parameter {p.name} = {p.text(p.default)}" for p in inputs.bound.values()]
     opened = [
@@ -180,22 +151,18 @@ def _shortened(lines: Sequence[str], what: str, most: int) -> list[str]:
 
 
 def _step_lines(steps: Sequence[ExplainedStep]) -> list[str]:
-    shown = steps
-    if len(steps) > _SHOWN:
-        shown = (*steps[: _SHOWN // 2], *steps[-_SHOWN // 2 :])
+    half, more = _SHOWN // 2, len(steps) - _SHOWN
+    shown = steps if more <= 0 else (*steps[:half], *steps[-half:])
     rows = [(str(s.light), s.label, " ".join(s.live), s.action) for s in shown]
     widths = [max((len(row[column]) for row in rows), default=0) for column in range(3)]
     lines = [
         f"{light.rjust(widths[0])}  {label.ljust(widths[1])}  {live.ljust(widths[2])}  {action}"
         for light, label, live, action in rows
     ]
-    if len(shown) < len(steps):
-        lines.insert(_SHOWN // 2, f"... {len(steps) - len(shown)} more steps ...")
-    return lines
+    return lines if more <= 0 else [*lines[:half], f"... {more} more steps ...", *lines[half:]]
 
 
-def _action(program: Program, light: int) -> str:
-    step = program.steps[light]
+def _action(program: Program, step: Step) -> str:
     inputs = " + ".join(f"light {light}" for light in step.inputs)
     if step.evaluation is None:
         return f"sum of {inputs}"
@@ -210,49 +177,44 @@ def _count(number: int, what: str) -> str:
     return f"{number} {what}" + "s" * (number != 1)
 
 
+def _components(places: Iterable[int]) -> tuple[str, ...]:
+    return tuple(f"S{place}" for place in places)
+
+
 def explanation_of(plan: Any) -> Explanation:
     """Return a `Plan` explained, part by part."""
-    ends = plan.program.readings
+    program, reduction = plan.program, plan.reduction
+    ends = program.readings
     counts = {
-        "source": len(plan.program.sources),
-        "detector": len(plan.program.detectors),
-        "dump": len(plan.program.dumps),
-        "step": len(plan.program.steps),
+        "source": len(program.sources),
+        "detector": len(program.detectors),
+        "dump": len(program.dumps),
+        "step": len(program.steps),
     }
+    reason = reduction.reason
+    if plan.instead is not None:
+        reason = f"where its certificate allows it; exact is '{reduction.model}': {reason}"
+    own = operations(plan.answers.light, unreduced=reduction.unreduced)
+    full = operations(plan.answers.whole, unreduced=True, carrier=StokesCarrier)
+    manner = ("method", "model", "engine", "dtype", "composing")
     return Explanation(
         counts=counts,
-        manner={
-            "method": plan.method,
-            "model": plan.model,
-            "engine": plan.engine,
-            "dtype": plan.dtype,
-            "composing": plan.composing,
-        },
-        reason=_why(plan),
-        steps=steps_of(plan.reduction),
-        reads={n: tuple(f"S{i}" for i in range(end.components)) for n, end in ends.items()},
+        manner={name: getattr(plan, name) for name in manner},
+        reason=reason,
+        steps=tuple(
+            ExplainedStep(light, step.label, _action(program, step), _components(live))
+            for light, (step, live) in enumerate(zip(program.steps, reduction.live, strict=True))
+        ),
+        reads={name: _components(range(end.components)) for name, end in ends.items()},
         light_at={name: end.light for name, end in ends.items()},
-        folded=plan.reduction.folded,
-        operations=_operations_of(plan),
-        loops=tuple(explained_loops(plan.program)),
+        folded=reduction.folded,
+        operations=None if own is None or full is None else {"plan": own, "full": full},
+        loops=tuple(_loop(program, loop) for loop in program.loops),
         certificate=_certified(plan),
         tolerance=_tolerated(plan),
         notes=tuple(_notes(plan)),
-        parameters=parameter_lines(plan.inputs),
+        parameters=_parameter_lines(plan.inputs),
     )
-
-
-def _operations_of(plan: Any) -> dict[str, dict[str, int]] | None:
-    own = operations(plan.answers.light, unreduced=plan.reduction.unreduced)
-    full = operations(plan.answers.whole, unreduced=True, carrier=StokesCarrier)
-    return None if own is None or full is None else {"plan": own, "full": full}
-
-
-def _why(plan: Any) -> str:
-    if plan.instead is None:
-        return str(plan.reduction.reason)
-    exact = plan.reduction
-    return f"where its certificate allows it; exact is '{exact.model}': {exact.reason}"
 
 
 def _tolerated(plan: Any) -> dict[str, Any] | None:
@@ -319,28 +281,26 @@ def _notes(plan: Any) -> Iterator[str]:
             f"in real numbers"
         )
     elif engine != "jax":
-        yield batches(engine, runner.formulas.length, runner.dtype.name)
+        yield batches(engine, runner.length, runner.dtype.name)
     yield from _each(
         plan.taps, "is a tap, which takes nothing: leave its light out of sums of energy"
     )
 
 
-def _each(ports: Sequence[str], what: str) -> Iterator[str]:
-    """Yield a sentence for each port, or for the first few of many."""
-    shown = ports if len(ports) <= _FEW else ports[: _FEW // 2]
-    yield from (f"{port} {what}" for port in shown)
-    if len(shown) < len(ports):
-        yield f"{len(ports) - len(shown)} more ports like these"
+def _each(ports: Sequence[str], what: str) -> list[str]:
+    """Return a sentence for each port, or for the first few of many."""
+    return _shortened([f"{port} {what}" for port in ports], "ports like these", _FEW)
 
 
 def operations(
     runner: Runner, *, unreduced: bool, carrier: type[Carrier] | None = None
 ) -> dict[str, int] | None:
     """Return how many operations a path takes in all, and of the dear sorts."""
-    formulas = runner.formulas
-    forms = formulas.all_passed_as(MANY)
-    made = formulas.attempt(
-        lambda: formulas.lights(forms, carrier=carrier, counted=True, unreduced=unreduced)
+    options: dict[str, Any] = {"counted": True, "unreduced": unreduced}
+    made = runner.attempt(
+        lambda: runner.recorded(runner.all_passed_as(MANY), **options).lights(
+            carrier or runner.carrier
+        )
     )
     return None if made is None else made.operations
 
@@ -356,19 +316,12 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
             continue
         shapes: list[tuple[int, ...]] = [argument.shape] if runner.unreduced else []
         for place in program.passed_to[step.evaluation]:
-            operand = program.operands[place]
-            if operand.known:
-                array = runner.formulas.known_arrays.get(f".{place}")
-                shapes.append(() if array is None else array.shape)
+            if program.operands[place].known:
+                shapes.append(np.shape(runner.known_arrays.get(f".{place}", 0.0)))
             else:
-                keys = (
-                    operand.input_key,
-                    *(operand.input_key._replace(part=part) for part in ("cos", "sin")),
-                )
-                shapes += [
-                    np.shape(argument.numbers[key]) for key in keys if key in argument.numbers
-                ]
-        count = prod(joint_shape(*shapes))
+                own = program.operands[place].input_key
+                keys = (own, own._replace(part="cos"), own._replace(part="sin"))
+                shapes += [np.shape(argument.numbers[k]) for k in keys if k in argument.numbers]
         # What one element does in several steps goes by one name.
-        results[step.label] = max(count, results.get(step.label, 0))
+        results[step.label] = max(prod(joint_shape(*shapes)), results.get(step.label, 0))
     return results

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.choice import REGISTRY
-from optipath.engines.jax_engine import CarriedProgram
 from optipath.errors import ParameterError
 from optipath.values.angles import CosSin
 from optipath.values.jax_values import is_jax, is_traced, namespace
@@ -16,44 +15,37 @@ from optipath.values.jax_values import is_jax, is_traced, namespace
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.engines.program import Program
-    from optipath.kernels.carriers.carrier import Carrier
-    from optipath.plan.inputs import Inputs
-    from optipath.plan.reading import RunOptions
+    from optipath.plan.runner import Runner
     from optipath.values.parameters import Resolved
 
 
 class ForJax:
-    """A program as JAX runs it."""
+    """The program of a runner as JAX runs it."""
 
-    def __init__(
-        self, program: Program, inputs: Inputs, carrier: type[Carrier], options: RunOptions
-    ) -> None:
-        self.program = program
-        self.inputs = inputs
-        self.carrier = carrier
-        self.options = options
+    def __init__(self, runner: Runner) -> None:
+        self.runner = runner
 
     @cached_property
     def path(self) -> Any:
         """The program, ready for JAX."""
-        program = CarriedProgram(self.program, self.carrier, np.dtype(self.options.dtype))
-        return REGISTRY["jax"].compiled(program)
+        runner = self.runner
+        return REGISTRY["jax"].compiled((runner.program, runner.carrier, runner.dtype))
 
     @cached_property
     def has_traced(self) -> bool:
         """Whether a value of the path is one that JAX traces."""
-        return any(operand.traced for operand in self.program.operands)
+        return any(operand.traced for operand in self.runner.program.operands)
 
     def is_requested(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
+        engine = self.runner.options.engine
         traced = self.has_traced or any(map(_is_of_jax, parameters.values()))
-        if traced and self.options.engine not in ("auto", "jax"):
+        if traced and engine not in ("auto", "jax"):
             raise ParameterError(
                 f"values of JAX were given, but the plan was composed for engine "
-                f"'{self.options.engine}'; compose with engine='jax' or 'auto'"
+                f"'{engine}'; compose with engine='jax' or 'auto'"
             )
-        return traced or self.options.engine == "jax"
+        return traced or engine == "jax"
 
     def needs_closer_look(self, sound: Any, resolved: Mapping[str, Resolved]) -> bool:
         """Tell whether hardly any light leaves a loop, of values that are all known."""
@@ -62,8 +54,9 @@ class ForJax:
 
     def nan_outside(self, numbers: Any, resolved: Mapping[str, Resolved], axes: int) -> Any:
         """Return what JAX gives, NaN where a value that it traces is not allowed, or S0 is NaN."""
-        inside = self.inputs.inside(resolved)
-        if self.inputs.masks:
+        inputs = self.runner.inputs
+        inside = inputs.inside(resolved)
+        if inputs.masks:
             # What is known is NumPy's from here, whatever precision JAX is set to.
             numbers = numbers if is_traced(numbers) else np.asarray(numbers)
             inside = inside & ~namespace(numbers).isnan(numbers[(..., *[0] * axes)])

@@ -175,6 +175,22 @@ class Inputs:
         return result
 
     @cached_property
+    def turning(self) -> dict[str, Parameter]:
+        """The open parameters that may make angles beyond a whole turn."""
+        results: dict[str, Parameter] = {}
+        for use in self.uses:
+            low, high = self.limits[use.value.name]
+            if use.domain.dimension == "angle" and max(-low, high) > TURN:
+                results.setdefault(use.value.name, use.value)
+        return results
+
+    def warn_of_angles(self, arguments: Mapping[str, Any], what: str = "parameter") -> None:
+        """Warn of plain numbers that make angles beyond a whole turn."""
+        for name, place in self.turning.items():
+            if name in arguments:
+                warn_of_degrees(f"{what} '{name}'", arguments[name], place.placed)
+
+    @cached_property
     def dimensions(self) -> dict[str, str]:
         """The dimension of each open parameter."""
         return {use.value.name: use.domain.dimension for use in self.uses}

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.engines.execute import evaluated, execute, whole_matrices
 from optipath.engines.formula import (
     DOUBLE,
     FROM_ANY,
@@ -19,7 +18,7 @@ from optipath.engines.formula import (
     of_angle,
 )
 from optipath.engines.path_formula import slack_of
-from optipath.engines.program import carrying
+from optipath.engines.program import carrying, evaluated, execute, whole_matrices
 from optipath.errors import ParameterError
 from optipath.kernels.carriers.carrier import (
     JonesCarrier,
@@ -93,7 +92,23 @@ class Interpreter:
         own = {
             index: tuple(map(arguments.cut, numbers)) for index, numbers in (shared or {}).items()
         }
-        return [stokes.reshape(*batch, 4) for stokes in self._results(arguments, own)]
+        program, carrier = self._carrying
+        if program is self.program:
+            result = self._read(arguments, self._execute(arguments, carrier, None, own))
+        else:
+            with np.errstate(all="ignore"):
+                lights = execute(program, self.operands(arguments), carrier, number=self.number)
+            result = self._read(arguments, lights)
+        faint: Any = False
+        if self.carrier is StokesCarrier:
+            # What is so faint that numbers on the way underflow is carried scaled.
+            faint = np.any([underflows(stokes[..., 0]) for stokes in result], axis=0)
+        if np.any(faint):
+            scaled = self._execute(arguments, self._carriers[ScaledCarrier], None, own)
+            again = self._read(arguments, scaled)
+            pairs = zip(again, result, strict=True)
+            result = [np.where(faint[..., np.newaxis], one, other) for one, other in pairs]
+        return [stokes.reshape(*batch, 4) for stokes in result]
 
     def _as_batch(self, arguments: Batch) -> Batch:
         """Return what is given, one path as a batch of one if it is to have the same bits."""
@@ -106,10 +121,10 @@ class Interpreter:
         left, result = 4 * arguments.paths, {}
         with np.errstate(all="ignore"):
             for index, evaluation in enumerate(self.program.evaluations):
-                shapes = [operands[operand].shape for operand in self.program.passed_to[index]]
-                shapes += (
-                    [] if evaluation.presence is None else [operands[evaluation.presence].shape]
-                )
+                places = [*self.program.passed_to[index]]
+                if evaluation.presence is not None:
+                    places.append(evaluation.presence)
+                shapes = [operands[place].shape for place in places]
                 size = 16 * prod(joint_shape(*shapes))
                 needed = self.program.evaluation_uses[index]
                 if needed and size <= min(left, arguments.paths):
@@ -154,29 +169,6 @@ class Interpreter:
             parts[2] = np.where(message, parts[2], np.inf)
             read.append(parts.reshape(4, *batch))
         return read
-
-    def _results(self, arguments: Batch, shared: Shared) -> list[Array]:
-        """Return light; what is so faint that numbers on the way underflow is carried scaled."""
-        program, carrier = self._carrying
-        if program is self.program:
-            result = self._stacked(arguments, carrier, shared)
-        else:
-            with np.errstate(all="ignore"):
-                lights = execute(program, self.operands(arguments), carrier, number=self.number)
-            result = self._read(arguments, lights)
-        if self.carrier is not StokesCarrier:
-            return result
-        faint = np.any([underflows(stokes[..., 0]) for stokes in result], axis=0)
-        if not np.any(faint):
-            return result
-        again = self._stacked(arguments, self._carriers[ScaledCarrier], shared)
-        return [
-            np.where(faint[..., np.newaxis], one, other)
-            for other, one in zip(result, again, strict=True)
-        ]
-
-    def _stacked(self, arguments: Batch, carrier: Carrier, shared: Shared) -> list[Array]:
-        return self._read(arguments, self._execute(arguments, carrier, None, shared))
 
     def _read(self, arguments: Batch, lights: Mapping[int, Any]) -> list[Array]:
         """Return the light at every end as Stokes vectors."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.execute import evaluated
+from optipath.engines.program import evaluated
 from optipath.errors import ParameterError
 from optipath.kernels.carriers.carried import energy
 from optipath.kernels.carriers.carrier import StokesCarrier

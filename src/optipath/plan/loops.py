@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines.execute import evaluated
-from optipath.engines.program import LoopSolver
+from optipath.engines.program import LoopSolver, evaluated
 from optipath.errors import LoopWarning, ParameterError
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import ROTATION

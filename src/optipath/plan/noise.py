@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.execute import evaluated
+from optipath.engines.program import evaluated
 from optipath.kernels.carriers.carrier import ScaledCarrier
 from optipath.kernels.carriers.noise import NoiseCarrier
 from optipath.kernels.primitives import NUMPY

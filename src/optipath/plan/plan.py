@@ -12,9 +12,8 @@ from optipath.errors import ParameterError, check_named
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.mueller import Mueller
-from optipath.plan.answers import by_place, only
+from optipath.plan.answers import Answers, LaterWavelength, by_place, only
 from optipath.plan.noise import matrix_noise_at, noise_at
-from optipath.plan.outlets import LaterWavelength
 from optipath.values.arrays import MOST_PATHS
 from optipath.values.precision import whole_number
 
@@ -23,7 +22,6 @@ if TYPE_CHECKING:
 
     from optipath.elements.own_element import OwnWays
     from optipath.engines.program import Program, Reduction, Tolerance
-    from optipath.plan.answers import Answers
     from optipath.plan.certificate import Certificate
     from optipath.plan.explanation import Explanation
     from optipath.plan.inputs import Inputs
@@ -85,10 +83,7 @@ class Plan:
 
     @property
     def model(self) -> str:
-        """What is carried along: ``"scalar"``, ``"sp"``, ``"linear"`` or ``"full"``.
-
-        With a tolerance, what is carried wherever a certificate allows it.
-        """
+        """What is carried (with a tolerance, where that allows it): a name such as ``"full"``."""
         return self.instead.model if self.instead else self.reduction.model
 
     @property
@@ -131,11 +126,11 @@ class Plan:
         by = answers.wavelengths
         later = LaterWavelength(by, self.inputs, parameters) if by else None
         if fast_path is not None:
-            if answers.large_angles.looks:
-                answers.large_angles.look(parameters)
+            if self.inputs.turning:
+                self.inputs.warn_of_angles(parameters)
             stokes = fast_path[place]
         else:
-            answers.large_angles.look(parameters)
+            self.inputs.warn_of_angles(parameters)
             stokes = answers.lights(parameters)[name]
         return Light.of(stokes, frame, noise=noise, wavelength=later)
 
@@ -155,14 +150,9 @@ class Plan:
         Returns
         -------
         dict of str to Light
-
-        Raises
-        ------
-        ParameterError
-            With every unknown, missing or unsuitable parameter.
         """
         check_named("run_all", unnamed, self.inputs.open)
-        self.answers.large_angles.look(parameters)
+        self.inputs.warn_of_angles(parameters)
         return self.answers.in_frames(self.answers.lights(parameters), parameters)
 
     def stream(self, size: int = 1 << 20, /, *unnamed: Never, **parameters: Any) -> Iterator[Part]:
@@ -241,13 +231,11 @@ class Plan:
             )
         program = self.whole
         begin = only("source", tuple(program.sources), "mueller(source, detector)", source)
-        ends = tuple(program.readings if detector is not None else program.detectors)
-        end = only("detector", ends, "mueller(source, detector)", detector)
-        reading = program.readings[end]
-        matrix = self.answers.matrix(begin, reading, parameters)
-        frames = (
-            self.answers.framed(f, parameters) for f in (program.sources[begin][1], reading.frame)
-        )
+        names = tuple(program.readings if detector is not None else program.detectors)
+        end = only("detector", names, "mueller(source, detector)", detector)
+        matrix = self.answers.matrix(begin, end, parameters)
+        ends = program.sources[begin][1], program.readings[end].frame
+        frames = (self.answers.framed(frame, parameters) for frame in ends)
         result = Mueller.of(matrix, *frames)
         return result.with_noise(partial(matrix_noise_at, self.answers, begin, end, parameters))
 
@@ -297,7 +285,7 @@ class Plan:
         arguments = [value for value in (limit, bounces) if isinstance(value, Mapping)]
         check_named("paths", (*arguments, *unnamed), self.inputs.open)
         answers = self.answers
-        answers.large_angles.look(parameters)
+        self.inputs.warn_of_angles(parameters)
         as_light = partial(answers.as_light, parameters)
         return light_paths(answers.whole, limit, bounces, parameters, as_light)
 
@@ -380,11 +368,6 @@ class Plan:
         interface that sees one of the two axes of a grid once for each value on it, and one
         without open values once.
 
-        Raises
-        ------
-        ParameterError
-            As `run`.
-
         Examples
         --------
         >>> import numpy as np
@@ -400,30 +383,12 @@ class Plan:
         return evaluations(self.answers.light, parameters)
 
     def only_detector(self, cure: str) -> str:
-        """Return the name of the detector, if there is one alone.
-
-        Parameters
-        ----------
-        cure : str
-            What is to be called where there are several.
-
-        Returns
-        -------
-        str
-
-        Raises
-        ------
-        ParameterError
-            If there are several.
-        """
+        """Return the name of the detector; where there are several, refuse with a cure."""
         return only("detector", tuple(self.program.detectors), cure)
 
     @cached_property
     def answers(self) -> Answers:
         """What answers all that is asked, and keeps what it has prepared."""
-        # Imported where it is needed, so that the library itself is there quickly.
-        from optipath.plan.answers import Answers  # noqa: PLC0415
-
         return Answers(self)
 
     @property

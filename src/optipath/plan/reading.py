@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels.trigonometry import DIGITS
 from optipath.values.angles import CosSin
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE, InputKey, part_of
 from optipath.values.precision import as_doubles, within
@@ -55,11 +54,10 @@ class Batch(NamedTuple):
     def within(self, limits: Mapping[Hashable, tuple[float, float]]) -> bool:
         """Tell whether each single number is within the range of its parameter."""
         for key, number in self.numbers.items():
-            if isinstance(number, (np.ndarray, bool)) or key.part in _PAIR:
-                continue
-            low, high = key.limits_in(limits)
-            if not (low <= number <= high and abs(number) < np.inf):
-                return False
+            if not isinstance(number, (np.ndarray, bool)) and key.part not in _PAIR:
+                low, high = key.limits_in(limits)
+                if not (low <= number <= high and abs(number) < np.inf):
+                    return False
         return True
 
     @property
@@ -97,18 +95,20 @@ class InputReader:
         affine = [key for key in result if key.is_affine]
         self._affine = {key.name: [a for a in affine if a.name == key.name] for key in affine}
         # A formula checks the range of a number that it reads, and of no other.
+        shows = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
         self._plain = {
             name
             for name, keys in self.keys.items()
-            if not inputs.tails[name] and any(key.part in ("value", "real") for key in keys)
+            if (keys and shows[name])
+            or (not inputs.tails[name] and any(key.part in ("value", "real") for key in keys))
         }
-        shows = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
-        self._plain |= {name for name, keys in self.keys.items() if keys and shows[name]}
-        self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
-        self._angles -= {name for name, p in inputs.open.items() if p.optional}
-        # Nothing else would look at their cosines and sines.
-        self._angles -= {
-            name for name, several in self._affine.items() if several == self.keys[name]
+        # Nothing else would look at the cosines and sines of angles that are all multiples.
+        self._angles = {
+            name
+            for name in self._plain
+            if inputs.dimensions[name] == "angle"
+            and self._affine.get(name) != self.keys[name]
+            and not (name in inputs.open and inputs.open[name].optional)
         }
 
     def key(self, parameters: Mapping[str, Any]) -> tuple[Any, ...] | None:
@@ -118,14 +118,10 @@ class InputReader:
         results: list[Any] = []
         for name, value in parameters.items():
             kind = type(value)
-            if kind is np.ndarray:
-                if value.dtype is not _DOUBLE or value.size == 1:
-                    return None
+            if kind is np.ndarray and value.dtype is _DOUBLE and value.size != 1:
                 results.append((name, value.shape))
-            elif kind is float:
-                results.append((name, None))
-            elif kind is str:
-                results.append((name, value))
+            elif kind is float or kind is str:
+                results.append((name, None if kind is float else value))
             else:
                 return None
         return tuple(results)
@@ -202,21 +198,6 @@ def _form(number: Any, dtype: np.dtype[Any]) -> str:
     return ABSENT if number is False else ONE
 
 
-class RunOptions(NamedTuple):
-    """How programs are run, as `Composer` takes it."""
-
-    method: str
-    composing: str
-    dtype: str
-    engine: str
-    threads: int
-
-    @property
-    def reproducible(self) -> bool:
-        """Whether a path comes to the same bits alone and in any batch, but with JAX."""
-        return self.dtype in DIGITS
-
-
 _THIN = 64
 """How long an axis must be for a loop of its own."""
 
@@ -229,12 +210,12 @@ class Layout:
     ((4, 6), frozenset({1}))
     """
 
-    def __init__(self, batch: tuple[int, ...], arrays: Mapping[str, Array]) -> None:
+    def __init__(self, batch: tuple[int, ...], arrays: Mapping[Any, Array]) -> None:
         own = {name: _differing(array.shape, len(batch)) for name, array in arrays.items()}
         groups: list[list[int]] = []
         last: Any = None
         for axis, length in enumerate(batch):
-            members = frozenset(name for name, axes in own.items() if axis in axes)
+            members = frozenset([name for name, axes in own.items() if axis in axes])
             if length == 1:
                 continue
             if groups and members == last:
@@ -266,7 +247,7 @@ class Layout:
     @property
     def key(self) -> tuple[Any, ...]:
         """What layouts have in common that one formula serves."""
-        return len(self.shape), self.last, tuple(sorted(self.axes.items(), key=lambda i: i[0]))
+        return len(self.shape), self.last, frozenset(self.axes.items())
 
     def lengths(self, axes: Iterable[int]) -> tuple[int, ...]:
         """Return the lengths of some of the axes, in order."""

@@ -3,36 +3,39 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from functools import cached_property
 from threading import Lock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from optipath.engines.choice import FLOATS, NUMPY_STEPS, default_engine
-from optipath.errors import ParameterError, listed
+from optipath.engines.path_formula import PathFormula
+from optipath.errors import ParameterError
 from optipath.kernels.kernel import is_defined_in
-from optipath.kernels.primitives import NUMPY
-from optipath.plan.batch_runner import Results
+from optipath.kernels.trigonometry import DIGITS
+from optipath.plan.batches import BatchKind, Recipe, Results, keep
+from optipath.plan.first_values import FirstValues
 from optipath.plan.for_jax import ForJax
 from optipath.plan.interpreter import Interpreter, carrier_of
-from optipath.plan.prepared import BatchKind, Prepared, Recipe, keep
-from optipath.plan.questions import FormulaMaker
 from optipath.plan.reading import InputReader, Layout, pieces
 from optipath.plan.scalar_runner import ScalarRunner
 from optipath.values.arrays import CURE, enough_for
 from optipath.values.jax_values import is_traced
-from optipath.values.units import in_unit
+from optipath.values.operands import ABSENT, ONE
+from optipath.values.precision import wide
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Iterator, Mapping
     from contextlib import AbstractContextManager
 
     from optipath.elements.own_element import OwnWays
+    from optipath.engines.formula import Formula
     from optipath.engines.program import Program
     from optipath.plan.inputs import Inputs
-    from optipath.plan.questions import Question
-    from optipath.plan.reading import Batch, RunOptions
-    from optipath.values.operands import InputKey, Operand
+    from optipath.plan.questions import Question, StokesQuestion
+    from optipath.plan.reading import Batch
+    from optipath.values.operands import InputKey
 
     Array = np.ndarray[Any, Any]
 
@@ -40,8 +43,26 @@ if TYPE_CHECKING:
 CACHED = 8192
 """How many paths are taken at once, step after step."""
 
+LONGEST = 200
+"""How many steps are compiled in one piece."""
+
 _LITTLE = 1 << 20
 """How many bytes every machine has memory for."""
+
+
+class RunOptions(NamedTuple):
+    """How programs are run, as `Composer` takes it."""
+
+    method: str
+    composing: str
+    dtype: str
+    engine: str
+    threads: int
+
+    @property
+    def reproducible(self) -> bool:
+        """Whether a path comes to the same bits alone and in any batch, but with JAX."""
+        return self.dtype in DIGITS
 
 
 class Runner:
@@ -63,12 +84,12 @@ class Runner:
         self.first_values = FirstValues(own_ways)
         self.dtype = np.dtype(options.dtype)
         self.carrier = carrier_of(program, options.composing)
-        self.for_jax = ForJax(program, inputs, self.carrier, options)
+        self.may_compile = len(program.steps) <= LONGEST and options.reproducible
+        self.for_jax = ForJax(self)
         self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
         limits = inputs.limits if options.reproducible else None
         self.interpreter = Interpreter(program, self.carrier, self.dtype, limits)
-        self.formulas = FormulaMaker(program, inputs, self.carrier, options, unreduced=unreduced)
-        self.single = ScalarRunner(program, inputs, self.formulas, own_ways)
+        self.single = ScalarRunner(self)
         self._ran = ""
         self._kinds: dict[Any, BatchKind] = {}
         self._recipes: dict[Any, Recipe] = {}
@@ -78,29 +99,20 @@ class Runner:
         """The engines that have answered the last question; none before the first."""
         return (self._ran,) if self._ran else ()
 
-    def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+    def answer(self, question: StokesQuestion, parameters: Mapping[str, Any]) -> Any:
         """Return what is asked for."""
         key = self.reader.key(parameters)
         recipe = None if key is None else self._recipes.get((question.key, key))
         numbers = None if recipe is None else recipe.numbers(parameters)
         if recipe is not None and numbers is not None:
-            return self._run(question, recipe.prepared, numbers, parameters)
+            return self._run(recipe.kind, recipe.layout, numbers, parameters)
         if self.for_jax.is_requested(parameters):
             return self._by_jax(question, parameters)
         return self.answer_for(question, self.reader.read(parameters), parameters, key=key)
 
-    def stream(
-        self, question: Question, size: int, parameters: Mapping[str, Any]
-    ) -> Iterator[tuple[Any, Any]]:
-        """Yield what is asked for, part by part."""
-        if self.for_jax.is_requested(parameters):
-            raise ParameterError(
-                "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
-            )
-        argument = self.reader.read(parameters)
-        for piece in pieces(argument.shape, size):
-            part = argument.part(piece.where)
-            yield piece.where, self.answer_for(question, part, parameters, ahead=argument.paths)
+    def read(self, parameters: Mapping[str, Any]) -> Batch:
+        """Return what is given as numbers."""
+        return self.reader.read(parameters)
 
     def answer_for(
         self,
@@ -113,25 +125,26 @@ class Runner:
     ) -> Any:
         """Return what is asked for numbers that have been read."""
         if self.first_values.ways:
-            kind = (arguments.forms(self.dtype), arguments.shape, *parameters)
-            self.first_values.check(kind, lambda: arguments)
+            values = (arguments.forms(self.dtype), arguments.shape, *parameters)
+            self.first_values.check(values, lambda: arguments)
         floats = question.is_light and self.dtype == np.float64 and arguments.is_of_floats
         if floats and not arguments.shape:
             lights = self.single.lights(arguments)
             if lights is not None:
                 self._ran = FLOATS
                 return dict(zip(self.program.readings, lights, strict=True))
-        known = {name: arguments.cut(array) for name, array in self.formulas.known_arrays.items()}
-        arrays = {str(key): n for key, n in arguments.numbers.items() if isinstance(n, np.ndarray)}
-        layout = Layout(arguments.shape, arrays | known)
-        prepared = Prepared(self._kind(question, arguments, layout, floats=floats), layout, known)
+        known = {name: arguments.cut(array) for name, array in self.known_arrays.items()}
+        numbers: dict[Any, Any] = {**arguments.numbers, **known}
+        arrays = {name: n for name, n in numbers.items() if isinstance(n, np.ndarray)}
+        layout = Layout(arguments.shape, arrays)
+        kind = self._kind(question, arguments, layout, floats=floats)
         if not arguments.within(self.inputs.limits):
             self.inputs.resolve(parameters)
-        elif key is not None and Recipe.holds(self.reader, arguments, parameters):
-            recipe = Recipe(prepared, self.reader, arguments, parameters)
-            keep(self._recipes, (question.key, key), recipe)
-        numbers = {str(key): number for key, number in arguments.numbers.items()} | known
-        return self._run(question, prepared, numbers, parameters, arguments, ahead)
+        elif key is not None:
+            recipe = Recipe(kind, layout, known, arguments, parameters)
+            if recipe.holds:
+                keep(self._recipes, (question.key, key), recipe)
+        return self._run(kind, layout, numbers, parameters, arguments, ahead)
 
     def read_for_bounds(self, parameters: Mapping[str, Any]) -> Batch:
         """Return what is given, for both the bounds of light and the light."""
@@ -151,21 +164,20 @@ class Runner:
         key = question.key, forms, layout.key, floats
         result = self._kinds.get(key)
         if result is None:
-            own = self.formulas, self.single, self.options
-            result = BatchKind(question, dict(forms), layout, *own, floats=floats)
+            result = BatchKind(question, dict(forms), layout, self, floats=floats)
             keep(self._kinds, key, result)
         return result
 
     def _run(
         self,
-        question: Question,
-        prepared: Prepared,
-        numbers: Mapping[str, Any],
+        kind: BatchKind,
+        layout: Layout,
+        numbers: Mapping[Any, Any],
         parameters: Mapping[str, Any],
         arguments: Batch | None = None,
         ahead: int = 0,
     ) -> Any:
-        kind, layout = prepared.kind, prepared.layout
+        question = kind.question
         engine = kind.choice.of(layout.paths, kind, ahead)
         stepped = engine == NUMPY_STEPS
 
@@ -200,7 +212,7 @@ class Runner:
         rows = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
         return question.answer(Results.of(rows, self.dtype), arguments.shape)
 
-    def _by_jax(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+    def _by_jax(self, question: StokesQuestion, parameters: Mapping[str, Any]) -> Any:
         resolved, batch = self.inputs.resolve(parameters)
         if not self.for_jax.traces(parameters):
             self.first_values.check((*parameters, batch), lambda: self.reader.read(parameters))
@@ -222,8 +234,47 @@ class Runner:
         for kind in self._kinds.values():
             if kind.choice.decided == kind.choice.compiler:
                 return kind.choice.compiler
-        length, dtype = self.formulas.length, self.dtype.name
-        return default_engine(engine, count, length, floats=floats, dtype=dtype)
+        dtype = self.dtype.name
+        return default_engine(engine, count, self.length, floats=floats, dtype=dtype)
+
+    def attempt(self, make: Callable[[], Formula]) -> Formula | None:
+        """Return what makes a formula gives; None where it cannot be made."""
+        if not self.may_compile:
+            return None
+        try:
+            return make()
+        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+            self.may_compile = False
+            return None
+
+    def recorded(self, forms: Mapping[InputKey, str], **options: Any) -> PathFormula:
+        """Return what records formulas, for numbers of some forms, as `PathFormula` has options."""
+        inputs, kind = self.inputs, self.dtype.name
+        return PathFormula(self.program, kind, forms, inputs.limits, masks=inputs.masks, **options)
+
+    def all_passed_as(self, form: str) -> dict[InputKey, str]:
+        """Return one form for every number that is not known."""
+        return dict.fromkeys([o.input_key for o in self.program.operands if not o.known], form)
+
+    @cached_property
+    def length(self) -> int | None:
+        """How many operations light takes for real numbers; None where there is no formula."""
+        forms, unreduced = self.all_passed_as(ONE), self.unreduced
+        forms |= {key: ABSENT for key in forms if key.part == "imag"}
+        made = self.attempt(lambda: self.recorded(forms, unreduced=unreduced).lights(self.carrier))
+        return None if made is None else len(made.steps)
+
+    @cached_property
+    def known_arrays(self) -> dict[str, Array]:
+        """The arrays that are known beforehand, as formulas name them."""
+        kind = wide(self.dtype)
+        return {
+            f".{place}": operand.numbers(kind=kind).astype(
+                bool if operand.part == "present" else self.dtype, copy=False
+            )
+            for place, operand in enumerate(self.program.operands)
+            if operand.known and operand.numbers().ndim
+        }
 
     def enough_for(
         self, batch: tuple[int, ...], numbers: int, cure: str = CURE
@@ -317,77 +368,3 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
 def _is_pure(factory: Any) -> bool:
     """Tell whether a kernel is of the library; one of a user's own may read what changes."""
     return is_defined_in("optipath.kernels.", factory)
-
-
-_LOOKED_AT = 16
-"""How many paths of a batch."""
-
-_MOST_VALUES = 64
-"""How many kinds are remembered."""
-
-
-class FirstValues:
-    """Looks at ways through elements of a user's own, once for each kind of values."""
-
-    def __init__(self, ways: tuple[OwnWays, ...]) -> None:
-        self.ways = ways
-        self._seen: set[Hashable] = set()
-
-    @property
-    def doubt(self) -> str:
-        """What else may be wrong with light that is not finite, as a sentence goes on with it."""
-        owners = dict.fromkeys(f"'{way.owner}'" for way in self.ways)
-        return f", or the rows of {listed([*owners])} are not finite there" if owners else ""
-
-    def check(self, kind: Hashable, read: Callable[[], Batch]) -> None:
-        """Refuse what no light can do, found with some of the values that are given."""
-        if not self.ways or kind in self._seen:
-            return
-        argument = read()
-        faults = [fault for way in self.ways for fault in _faults(way, argument)]
-        if faults:
-            raise ParameterError(*faults)
-        if len(self._seen) >= _MOST_VALUES:
-            self._seen.clear()
-        self._seen.add(kind)
-
-
-def _faults(way: OwnWays, arguments: Batch) -> list[str]:
-    """Return what is wrong with a way for a few of the paths, the first and the last among them."""
-    units = way.units
-    some = np.unique(
-        np.linspace(0.0, arguments.paths - 1.0, min(_LOOKED_AT, arguments.paths)).astype(int)
-    )
-    where = np.unravel_index(some, arguments.shape) if arguments.shape else ()
-
-    def few(number: Any) -> Any:
-        several = np.asarray(number)
-        if several.ndim:  # One number for all stays one, as elements are given it.
-            several = np.broadcast_to(several, arguments.shape)[where]
-        return several if several.dtype == bool else several.astype(np.float64)
-
-    mine = {key: few(n) for key, n in arguments.numbers.items() if key.name in units}
-    if any(key.part == "present" and not np.all(number) for key, number in mine.items()):
-        return []  # The element is not everywhere there.
-
-    def read(operand: Operand) -> Any:
-        if operand.known:
-            return few(arguments.cut(operand.numbers()))
-        return operand.evaluated(NUMPY, operand.number_in(mine, np.asarray))
-
-    try:
-        result = way.faults(read)
-    except KeyError:
-        return []  # Not all of its values are of use to what is read.
-    return [f"at {_values(mine, place, units)}: {fault}" for place, fault in result]
-
-
-def _values(numbers: dict[InputKey, Any], place: int, units: Mapping[str, str]) -> str:
-    """Write the numbers of one path."""
-    written = []
-    for key, several in numbers.items():
-        number, (name, unit) = np.ravel(several)[place if np.ndim(several) else 0], (str(key), "")
-        if key.part == "value":
-            name, unit = key.name, units[key.name]
-        written.append(f"{name} = {in_unit(number, unit):.6g} {unit}".strip())
-    return ", ".join(written)

@@ -9,20 +9,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.engines.float_engine import FLOAT_ENGINE
+from optipath.engines.float_engine import float_path
 from optipath.values.curve_value import computed_values
 from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD
 from optipath.values.parameters import THERE, Resolved
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
-    from optipath.elements.own_element import OwnWays
-    from optipath.engines.program import Program
+    from optipath.engines.float_engine import FloatPath
     from optipath.plan.inputs import Inputs
-    from optipath.plan.questions import FormulaMaker
     from optipath.plan.reading import Batch, Layout
+    from optipath.plan.runner import Runner
     from optipath.values.operands import InputKey
 
 
@@ -37,12 +36,11 @@ _REFUSED = (ArithmeticError, TypeError, ValueError)
 class FloatFunction(NamedTuple):
     """A function of floats."""
 
-    path: Callable[..., tuple[Any, ...] | None]
-    names: tuple[str, ...]
-    keys: list[InputKey]
+    path: FloatPath
+    names: tuple[Any, ...]
     operations: int
 
-    def rows(self, numbers: Mapping[str, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
+    def rows(self, numbers: Mapping[Any, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
         """Return the results of a few paths, shape (results, paths); None where it takes care."""
         columns: list[Any] = []
         for name in self.names:
@@ -63,22 +61,14 @@ class FloatFunction(NamedTuple):
 
 
 class ScalarRunner:
-    """Runs a program on plain floats."""
+    """Runs the program of a runner on plain floats."""
 
-    def __init__(
-        self,
-        program: Program,
-        inputs: Inputs,
-        formulas: FormulaMaker,
-        own_ways: tuple[OwnWays, ...] = (),
-    ) -> None:
-        self.program = program
-        self.inputs = inputs
-        self.formulas = formulas
-        self.own_ways = own_ways
+    def __init__(self, runner: Runner) -> None:
+        self.runner = runner
+        self.inputs = runner.inputs
         self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
         self._looked_at: set[frozenset[InputKey]] = set()
-        self.following = FollowingFloats(inputs) if inputs.computed else None
+        self.following = FollowingFloats(self.inputs) if self.inputs.computed else None
         self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
     def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
@@ -105,25 +95,22 @@ class ScalarRunner:
             self._looked_at.add(nothing)
             if self._is_default(arguments) and not self.inputs.agreements and self._defaults_hold():
                 self._default_call = self._unread(arguments, function)
-        return _called(function.path, [arguments.numbers[key] for key in function.keys])
+        return _called(function.path, [arguments.numbers[name] for name in function.names])
 
     def function(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         """Return the function for what is not there, as `Batch.nothing`, if it can be."""
-        if nothing not in self.functions:
-            self.functions[nothing] = self._made(nothing)
-        return self.functions[nothing]
-
-    def _made(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
-        keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
+        if nothing in self.functions:
+            return self.functions[nothing]
+        runner, result = self.runner, None
+        keys = runner.all_passed_as(ONE)
         absent = {key.name for key in nothing if key.part == "present"}
         forms = {k: ABSENT if k in nothing or k.name in absent else ONE for k in keys}
-        formula = self.formulas.of_floats(forms)
-        if formula is None:
-            return None
-        names = tuple(str(symbol.operands[0]) for symbol in formula.inputs)
-        named = {str(key): key for key in keys}
-        own = [named[name] for name in names if name in named]
-        return FloatFunction(FLOAT_ENGINE.compiled(formula), names, own, formula.length)
+        formula = runner.attempt(lambda: runner.recorded(forms, single=True).lights(runner.carrier))
+        if formula is not None:
+            names = tuple(map(formula.name_of, formula.inputs))
+            result = FloatFunction(float_path(formula)(), names, formula.length)
+        self.functions[nothing] = result
+        return result
 
     def _is_default(self, arguments: Batch) -> bool:
         """Tell whether the optional elements are there as they are by default."""
@@ -135,12 +122,11 @@ class ScalarRunner:
         """Tell whether elements of a user's own can be what they are by default."""
         opened = self.inputs.open.items()
         defaults = {name: p.resolve(p.default) for name, p in opened if p.default is not None}
-        known = [way for way in self.own_ways if way.are_known(defaults)]
+        known = [way for way in self.runner.first_values.ways if way.are_known(defaults)]
         return not any(way.faults(lambda operand: operand.numbers(defaults)) for way in known)
 
     def _unread(self, arguments: Batch, function: FloatFunction) -> Any:
         """Return what `fast_path` needs: the function, and the default of each that it takes."""
-        keys = {str(key): key for key in arguments.numbers}
         optional = {key.name for key in arguments.numbers if key.part == "present"}
         # A plain float has no imaginary part, and the function has been made for none.
         parts = Counter(
@@ -153,7 +139,7 @@ class ScalarRunner:
         if any(key.part == "imag" and key.name not in real for key in arguments.numbers):
             return None
         order = []
-        for key in map(keys.__getitem__, function.names):
+        for key in function.names:
             # One number may be given to several kernels.
             if key.part not in ("value", "real") or key.is_affine or key.name not in real:
                 return None

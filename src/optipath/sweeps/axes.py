@@ -23,7 +23,6 @@ from optipath.errors import (
     shown,
 )
 from optipath.paths.path_graph import PathGraph
-from optipath.plan.inputs import LargeAngles
 from optipath.sweeps.datasets import DETECTOR, is_variable
 from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
 from optipath.values.angles import CosSin
@@ -108,7 +107,7 @@ def grid_of(
         for name, (value, _) in several.items()
         if not isinstance(value, TextColumn | AxisValues) and not _is_labelled(value)
     }
-    LargeAngles(inputs).look(plain)
+    inputs.warn_of_angles(plain)
     return grid
 
 

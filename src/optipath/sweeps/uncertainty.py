@@ -80,9 +80,9 @@ def propagate(
         raise ParameterError(*faults)
     request = plan if composer is None else path.plan_by(composer)
     values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in arguments.items()}
-    request.answers.large_angles.look(values)
+    request.inputs.warn_of_angles(values)
     uncertainties = {name: arguments[name][1] for name in names}
-    request.answers.large_angles.look(uncertainties, "the standard uncertainty of parameter")
+    request.inputs.warn_of_angles(uncertainties, "the standard uncertainty of parameter")
     light_at = LightAt(request, end, exact, tuple(uncertain))
     light = light_at({})
     if method == "monte-carlo":
