@@ -77,7 +77,7 @@ def test_zero_is_a_number_like_others(prepared):
 
 
 def test_no_more_sorts_and_runners_are_kept_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(batches, "MOST_CACHED", 2)
+    monkeypatch.setattr(runner, "MOST_CACHED", 2)
     plan = path().compose()
     for count in (2, 3, 4, 5, 6):
         plan.run(theta=np.linspace(0.1, 1.2, count))

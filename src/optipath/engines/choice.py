@@ -132,12 +132,7 @@ def default_engine(
     'numba'
     """
     choice = EngineChoice(engine, floats=floats, dtype=dtype, runs=SEVERAL)
-    unseen = SimpleNamespace(
-        has_floats=False,
-        is_stored=False,
-        operations=lambda *, floats: operations,  # noqa: ARG005
-    )
-    return choice.of(count, unseen)
+    return choice.of(count, SimpleNamespace(is_stored=False, operations=lambda **_: operations))
 
 
 def cost(operations: int, count: int) -> float:

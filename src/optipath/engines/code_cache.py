@@ -277,8 +277,6 @@ def _maker() -> tuple[Any, ...]:
 
     versions = []
     for package in ("optipath", "numba", "llvmlite"):
-        try:
-            versions.append(version(package))
-        except PackageNotFoundError:
-            versions.append("")
+        with suppress(PackageNotFoundError):
+            versions.append((package, version(package)))
     return (*versions, *processor())

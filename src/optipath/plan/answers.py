@@ -1,9 +1,13 @@
-"""Answers: the runners of a plan, and the frames and wavelengths of the light at its outlets."""
+"""Answers: the runners of a plan, and the frames and wavelengths of the light at its outlets.
+
+Within a tolerance, a cheaper model runs where a certificate allows it, and the exact one elsewhere.
+"""
 
 from __future__ import annotations
 
 from contextlib import suppress
 from copy import deepcopy
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -12,11 +16,11 @@ import numpy as np
 from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frame import Frame
 from optipath.light.light import Light
-from optipath.plan.certificate import Approximation
 from optipath.plan.noise import NoiseInterpreter, noise_at
 from optipath.plan.questions import BoundsQuestion, LightQuestion, MatrixQuestion
 from optipath.plan.reading import pieces, sliced
-from optipath.plan.runner import RunOptions, runner_for
+from optipath.plan.runnable import RunOptions
+from optipath.plan.runner import runner_for
 from optipath.values.arrays import locked
 from optipath.values.jax_values import is_traced
 from optipath.values.wavelength import Wavelength
@@ -28,8 +32,12 @@ if TYPE_CHECKING:
     from optipath.engines.program import Program
     from optipath.plan.certificate import Certificate
     from optipath.plan.inputs import Inputs
+    from optipath.plan.questions import Question, StokesQuestion
+    from optipath.plan.reading import Batch
     from optipath.plan.runner import Runner
     from optipath.values.parameters import Parameter
+
+    Array = np.ndarray[Any, Any]
 
 
 class Answers:
@@ -81,8 +89,7 @@ class Answers:
         runner = self.approximation or self.light
         argument = runner.read(parameters)
         for piece in pieces(argument.shape, size):
-            part = argument.part(piece.where)
-            lights = runner.answer_for(self.question, part, parameters, ahead=argument.paths)
+            lights = runner.answer_for(self.question, argument.part(piece.where))
             yield piece.where, dict(lights)
 
     def matrix(self, source: str, end: str, parameters: Mapping[str, Any]) -> Any:
@@ -95,7 +102,7 @@ class Answers:
         """Return the certificate of every end."""
         self.plan.inputs.warn_of_angles(parameters)
         argument = self.whole.read_for_bounds(parameters)
-        return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), argument, parameters))
+        return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), argument))
 
     def in_frames(
         self, lights: Mapping[str, Any], parameters: Mapping[str, Any], where: Any = ()
@@ -157,6 +164,86 @@ def by_place(ends: tuple[Any, ...], unnamed: tuple[Any, ...]) -> tuple[Any, ...]
     ((), (0.3, 0.2))
     """
     return (*[end for end in ends if not isinstance(end, str | None)], *unnamed)
+
+
+_MOST = 0.5
+"""From which share of paths that need the exact model it is run for all."""
+
+
+@dataclass(eq=False, repr=False)
+class Approximation:
+    """Runs an inexact model path by path within a tolerance: first its errors, then the light."""
+
+    whole: Runner
+    errors: Question
+    exact: Runner
+    cheap: Runner | None
+    tolerance: float
+    _ran: tuple[Runner, ...] = ()
+
+    @property
+    def ran_by(self) -> tuple[str, ...]:
+        """The engines that have given the last light; none before the first."""
+        return tuple(dict.fromkeys(engine for one in self._ran for engine in one.ran_by))
+
+    def answer(self, question: StokesQuestion, parameters: Mapping[str, Any]) -> Any:
+        """Return what is asked for."""
+        if self.exact.for_jax.is_requested(parameters):
+            self._ran = (self.exact,)
+            return self.exact.answer(question, parameters)
+        return self.answer_for(question, self.read(parameters))
+
+    def read(self, parameters: Mapping[str, Any]) -> Batch:
+        """Return what is given as numbers."""
+        return self.whole.read_for_bounds(parameters)
+
+    def errors_for(self, parameters: Mapping[str, Any]) -> Array:
+        """Return the largest error of the cheaper model, as a share of the intensity."""
+        _, errors = self.whole.answer_for(self.errors, self.read(parameters))
+        return errors  # type: ignore[no-any-return]
+
+    def answer_for(self, question: Question, arguments: Batch) -> dict[str, Any]:
+        """Return what is asked for numbers that have been read."""
+
+        def run(runner: Runner, numbers: Batch) -> dict[str, Any]:
+            self._ran = (*self._ran, runner)
+            return dict(runner.answer_for(question, numbers))
+
+        self._ran = ()
+        scalar, error = self.whole.answer_for(self.errors, arguments)
+        beyond = ~(error <= self.tolerance)
+        share = np.count_nonzero(beyond) / max(beyond.size, 1)
+        if share == 1.0:
+            return run(self.exact, arguments)
+        if self.cheap is None:
+            self._ran = (self.whole,)
+            cheap = {n: (total, np.nan, np.nan, np.nan) for n, total in scalar.items()}
+        else:
+            cheap = run(self.cheap, arguments)
+        if not share:
+            return cheap
+        if share > _MOST:
+            whole = run(self.exact, arguments)
+            return {n: _mixed(cheap[n], whole[n], beyond, beyond) for n in cheap}
+        some = run(self.exact, arguments.part((beyond,)))
+        return {n: _mixed(cheap[n], some[n], beyond, ...) for n in cheap}
+
+
+def _mixed(cheap: Any, exact: Any, beyond: Array, of_exact: Any) -> Array:
+    """Return one light with that of another in some places."""
+    stokes = np.array(_whole(cheap, beyond.shape))
+    batch = beyond.shape if of_exact is beyond else (int(beyond.sum()),)
+    stokes[beyond] = _whole(exact, batch)[of_exact]
+    return stokes
+
+
+def _whole(stokes: Any, batch: tuple[int, ...]) -> Array:
+    """Return the Stokes vectors (..., 4) of light as an array."""
+    if isinstance(stokes, tuple):
+        kind = np.result_type(stokes[0])
+        parts = [np.broadcast_to(np.asarray(part, kind), batch) for part in stokes]
+        stokes = np.stack(parts, axis=-1)
+    return stokes  # type: ignore[no-any-return]
 
 
 class _Later:

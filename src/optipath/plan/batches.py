@@ -1,159 +1,26 @@
-"""Batches: what many paths have in common, prepared once, and formulas run over grids of them."""
+"""Batches: a formula run piece by piece over a grid of many paths."""
 
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines.choice import COMPILER, REGISTRY, EngineChoice
+from optipath.engines.choice import REGISTRY
 from optipath.engines.formula import stages
 from optipath.engines.symbols import Symbol
-from optipath.errors import ValueFault
 from optipath.plan.reading import pieces
-from optipath.values.operands import ABSENT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from optipath.engines.formula import ArrayPath, Formula
-    from optipath.plan.questions import Question
-    from optipath.plan.reading import Batch, Layout, Piece
-    from optipath.plan.runner import Runner
-    from optipath.plan.scalar_runner import FloatFunction
-    from optipath.values.operands import InputKey
+    from optipath.plan.reading import Layout, Piece
 
     Array = np.ndarray[Any, Any]
-
-
-MOST_CACHED = 64
-"""How many kinds of batches are kept prepared; the oldest goes first."""
-
-
-def keep(store: dict[Any, Any], key: Any, value: Any) -> None:
-    """Keep a value with others, the oldest of which go."""
-    for oldest in list(store)[: max(0, len(store) - MOST_CACHED + 1)]:
-        store.pop(oldest, None)
-    store[key] = value
-
-
-class BatchKind:
-    """Batches of one kind: one question, numbers of the same forms, the same axes."""
-
-    def __init__(
-        self,
-        question: Question,
-        forms: Mapping[InputKey, str],
-        layout: Layout,
-        runner: Runner,
-        *,
-        floats: bool,
-    ) -> None:
-        self.question = question
-        self.forms = forms
-        self.layout = layout
-        self.runner = runner
-        self.choice = EngineChoice(runner.options.engine, floats=floats, dtype=runner.options.dtype)
-
-    @cached_property
-    def batches(self) -> BatchRunner | None:
-        """What does the formula to batches; None where it cannot be made."""
-        runner, axes = self.runner, self.layout.axes
-        made = runner.attempt(lambda: self.question.formula(runner, self.forms, axes))
-        if made is None:
-            return None
-        staged = not runner.unreduced
-        return BatchRunner(made, self.layout, threads=runner.options.threads, staged=staged)
-
-    @cached_property
-    def function(self) -> FloatFunction | None:
-        """What does one path after the other; None where it cannot be made."""
-        nothing = frozenset([key for key, form in self.forms.items() if form == ABSENT])
-        return self.runner.single.function(nothing)
-
-    @property
-    def has_floats(self) -> bool:
-        """Whether a function of floats has been made."""
-        return bool(self.runner.single.functions)
-
-    def operations(self, *, floats: bool) -> int | None:
-        """Return how many operations a path takes; None where no formula can be made."""
-        if floats:
-            return None if self.function is None else self.function.operations
-        return None if self.batches is None else len(self.batches.formula.steps)
-
-    @property
-    def is_stored(self) -> bool:
-        """Whether the compiler's code is on disk."""
-        return self.batches is not None and all(
-            map(REGISTRY[COMPILER].is_ready, self.batches.parts)
-        )
-
-
-class Recipe:
-    """How the numbers of a batch are taken out of what is given, for batches of its shapes."""
-
-    def __init__(
-        self,
-        kind: BatchKind,
-        layout: Layout,
-        known: Mapping[Any, Any],
-        arguments: Batch,
-        parameters: Mapping[str, Any],
-    ) -> None:
-        self.kind = kind
-        self.layout = layout
-        self.fixed: dict[Any, Any] = dict(known)
-        self.plain: list[InputKey] = []
-        self.parts: list[InputKey] = []
-        self.ranges: list[tuple[str, float, float]] = []
-        self.reader = reader = kind.runner.reader
-        # What is more than numbers within limits, which formulas look at, is looked at each time.
-        self.whole = [
-            use
-            for use in reader.inputs.distinct_uses
-            if type(value := parameters.get(use.value.name)) is np.ndarray
-            and not reader.is_plain(use.value.name, value)
-        ]
-        for key, number in arguments.numbers.items():
-            value = parameters.get(key.name)
-            if value is None or type(value) is str or key.part == "present":
-                self.fixed[key] = number
-            elif key.part in ("value", "real") and not key.is_affine:
-                self.plain.append(key)
-            else:
-                self.parts.append(key)
-            if type(value) is float:
-                self.ranges.append((key.name, *reader.inputs.limits[key.name]))
-        # What nothing needs is looked at each time, as is what follows from others, and what says
-        # more of this batch than its shapes do.
-        names = {key.name for key in arguments.numbers}
-        self.holds = parameters.keys() <= names <= reader.inputs.open.keys() and all(
-            isinstance(number, np.ndarray)
-            for key, number in arguments.numbers.items()
-            if type(parameters.get(key.name)) is np.ndarray and key.part not in ("present", "imag")
-        )
-
-    def numbers(self, parameters: Mapping[str, Any]) -> dict[Any, Any] | None:
-        """Return the numbers by the names of a formula's inputs; None if one is not allowed."""
-        for name, low, high in self.ranges:
-            if not low <= parameters[name] <= high or abs(parameters[name]) == np.inf:
-                return None
-        try:
-            for use in self.whole:
-                use.check_arguments(parameters[use.value.name])
-        except ValueFault:
-            return None
-        results = dict(self.fixed)
-        for key in self.plain:
-            results[key] = parameters[key.name]
-        for key in self.parts:
-            results[key] = self.reader.part(key, parameters[key.name])
-        return results
 
 
 _AT_ONCE = 1 << 16

@@ -12,7 +12,7 @@ from optipath.engines.choice import LARGE, batches
 from optipath.errors import ParameterError, listed
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import FULL, ROTATION
-from optipath.plan.runner import LONGEST
+from optipath.plan.runnable import LONGEST
 from optipath.values.arrays import joint_shape
 from optipath.values.operands import MANY
 
@@ -185,12 +185,7 @@ def explanation_of(plan: Any) -> Explanation:
     """Return a `Plan` explained, part by part."""
     program, reduction = plan.program, plan.reduction
     ends = program.readings
-    counts = {
-        "source": len(program.sources),
-        "detector": len(program.detectors),
-        "dump": len(program.dumps),
-        "step": len(program.steps),
-    }
+    kinds = ("source", "detector", "dump", "step")
     reason = reduction.reason
     if plan.instead is not None:
         reason = f"where its certificate allows it; exact is '{reduction.model}': {reason}"
@@ -198,7 +193,7 @@ def explanation_of(plan: Any) -> Explanation:
     full = operations(plan.answers.whole, unreduced=True, carrier=StokesCarrier)
     manner = ("method", "model", "engine", "dtype", "composing")
     return Explanation(
-        counts=counts,
+        counts={kind: len(getattr(program, f"{kind}s")) for kind in kinds},
         manner={name: getattr(plan, name) for name in manner},
         reason=reason,
         steps=tuple(

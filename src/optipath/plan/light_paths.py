@@ -143,7 +143,9 @@ class Search:
             self._add(light, state, (self.program.steps[light].label,), 0)
         followed = 0
         while self._waiting or self._arriving:
-            if self._arriving and (followed >= self._patience or self._is_brightest()):
+            # Nothing can be brighter than what has arrived, or nobody waits any longer.
+            first = not self._waiting or self._arriving[:1] < self._waiting[:1]
+            if self._arriving and (first or followed >= self._patience):
                 followed = max(0, followed - self._patience // 16)
                 yield self._arrived(heappop(self._arriving))
                 continue
@@ -188,10 +190,6 @@ class Search:
         self._waiting.remove(branch)
         heapify(self._waiting)
         return branch
-
-    def _is_brightest(self) -> bool:
-        """Tell whether nothing can be brighter than what has arrived."""
-        return not self._waiting or self._arriving[0] < self._waiting[0]
 
     @staticmethod
     def _brightness(state: Carried) -> float:
@@ -256,16 +254,10 @@ def endless(program: Program, bounces: int | None) -> str:
 
 def _goes_round_unbounced(program: Program, members: range) -> bool:
     """Tell whether there is a way round a loop that has no reflection."""
-    inputs = {
-        light: {i for i in program.steps[light].inputs if i in members}
-        for light in members
-        if not program.steps[light].bounces
-    }
-    waiting = True
-    while waiting:
+    left = {light for light in members if not program.steps[light].bounces}
+    before = 0
+    while before != len(left):
+        before = len(left)
         # What waits for nothing any more is on no way round.
-        done = [light for light, before in inputs.items() if not before & inputs.keys()]
-        for light in done:
-            del inputs[light]
-        waiting = bool(done)
-    return bool(inputs)
+        left = {light for light in left if not left.isdisjoint(program.steps[light].inputs)}
+    return bool(left)

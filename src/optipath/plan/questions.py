@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from optipath.plan.batches import Results
     from optipath.plan.interpreter import Shared
     from optipath.plan.reading import Batch
-    from optipath.plan.runner import Runner
+    from optipath.plan.runnable import Runnable
 
     Array = np.ndarray[Any, Any]
     Shape = tuple[int, ...]
@@ -42,11 +42,11 @@ class Question(ABC):
         return 2 * self.made if stepped else self.read
 
     @abstractmethod
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    def formula(self, runner: Runnable, forms: Mapping[Any, str], axes: Any) -> Formula:
         """Return the formula of the results, for numbers of some forms."""
 
     @abstractmethod
-    def rows(self, runner: Runner, arguments: Batch, shared: Shared) -> Array:
+    def rows(self, runner: Runnable, arguments: Batch, shared: Shared) -> Array:
         """Return the results step by step. Shape: returns (results, paths)."""
 
     @abstractmethod
@@ -62,14 +62,14 @@ class StokesQuestion(Question):
     matrix_of: tuple[str, str] | None = None
 
     @abstractmethod
-    def stepped(self, runner: Runner, arguments: Batch, shared: Shared) -> list[Array]:
+    def stepped(self, runner: Runnable, arguments: Batch, shared: Shared) -> list[Array]:
         """Return the arrays step by step."""
 
     @abstractmethod
     def named(self, arrays: list[Any]) -> Any:
         """Return what the user gets of the arrays."""
 
-    def rows(self, runner: Runner, arguments: Batch, shared: Shared) -> Array:
+    def rows(self, runner: Runnable, arguments: Batch, shared: Shared) -> Array:
         arrays = self.stepped(runner, arguments, shared)
         self._refuse_infinite(runner, arrays)
         first: Any = (..., *[0] * len(self.tail))
@@ -78,7 +78,7 @@ class StokesQuestion(Question):
         size = self.made // len(arrays)
         return np.concatenate([array.reshape(-1, size).T for array in arrays])
 
-    def by_jax(self, runner: Runner, resolved: Any, shape: Shape, parameters: Any) -> Any:
+    def by_jax(self, runner: Runnable, resolved: Any, shape: Shape, parameters: Any) -> Any:
         """Return what the user gets of JAX; None where NumPy is to be asked."""
         jax = runner.for_jax
         arrays, sound = jax.path.run(resolved, shape, parameters, self.matrix_of)
@@ -88,7 +88,7 @@ class StokesQuestion(Question):
         self._refuse_infinite(runner, arrays)
         return self.named(arrays)
 
-    def _refuse_infinite(self, runner: Runner, arrays: list[Any]) -> None:
+    def _refuse_infinite(self, runner: Runnable, arrays: list[Any]) -> None:
         for array, count in zip(arrays, self.counts, strict=True):
             runner.refuse_infinite(array[(..., slice(count), *[slice(None)] * len(self.tail[1:]))])
 
@@ -106,11 +106,11 @@ class LightQuestion(StokesQuestion):
         self.made = self.read = 4 * len(self.ends)
         self.counts = [reading.components for reading in self.ends.values()]
 
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    def formula(self, runner: Runnable, forms: Mapping[Any, str], axes: Any) -> Formula:
         recorded = runner.recorded(forms, axes=axes, unreduced=runner.unreduced)
         return recorded.lights(runner.carrier)
 
-    def stepped(self, runner: Runner, arguments: Batch, shared: Shared) -> list[Array]:
+    def stepped(self, runner: Runnable, arguments: Batch, shared: Shared) -> list[Array]:
         return runner.interpreter.lights(arguments, shared)
 
     def named(self, arrays: list[Any]) -> dict[str, Any]:
@@ -144,10 +144,10 @@ class MatrixQuestion(StokesQuestion):
         self.counts = [reading.components]
         self.key = source, reading.light, reading.components
 
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    def formula(self, runner: Runnable, forms: Mapping[Any, str], axes: Any) -> Formula:
         return runner.recorded(forms, axes=axes).matrix(self.source, self.reading)
 
-    def stepped(self, runner: Runner, arguments: Batch, shared: Shared) -> list[Array]:
+    def stepped(self, runner: Runnable, arguments: Batch, shared: Shared) -> list[Array]:
         del shared  # Each is needed in several columns.
         return [runner.interpreter.matrix(arguments, self.source, self.reading)]
 
@@ -172,10 +172,10 @@ class BoundsQuestion(Question):
         self.read = self.made if model is None else len(self.ends) + 1
         self.key = ("bounds", model)
 
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    def formula(self, runner: Runnable, forms: Mapping[Any, str], axes: Any) -> Formula:
         return runner.recorded(forms, axes=axes).bounds(self.model)
 
-    def rows(self, runner: Runner, arguments: Batch, shared: Shared) -> Array:
+    def rows(self, runner: Runnable, arguments: Batch, shared: Shared) -> Array:
         del shared  # Those of bounds are of another sort.
         bounds = [rows.reshape(4, -1) for rows in runner.interpreter.bounds(arguments)]
         if self.model is None:

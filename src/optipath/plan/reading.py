@@ -25,10 +25,11 @@ _DOUBLE = np.dtype(np.float64)
 
 
 class Batch(NamedTuple):
-    """Numbers for a program by their keys, and the shape that they broadcast to."""
+    """Numbers for a program by their keys, their joint shape, and what they were read from."""
 
     numbers: Mapping[InputKey, Any]
     shape: tuple[int, ...]
+    parameters: Mapping[str, Any]
     before: Batch | None = None
     where: tuple[Any, ...] = ()
 
@@ -36,6 +37,11 @@ class Batch(NamedTuple):
     def paths(self) -> int:
         """The number of paths."""
         return int(np.prod(self.shape, dtype=np.int64))
+
+    @property
+    def ahead(self) -> int:
+        """The number of paths of the whole, of which this may be a part."""
+        return self.paths if self.before is None else self.before.ahead
 
     def cut(self, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
         """Return what belongs to this part of an array that broadcasts to the whole batch."""
@@ -49,7 +55,8 @@ class Batch(NamedTuple):
             key: _one_number(sliced(n, self.shape, where)) if isinstance(n, np.ndarray) else n
             for key, n in self.numbers.items()
         }
-        return Batch(numbers, np.broadcast_to(0.0, self.shape)[where].shape, self, where)
+        shape = np.broadcast_to(0.0, self.shape)[where].shape
+        return Batch(numbers, shape, self.parameters, self, where)
 
     def within(self, limits: Mapping[Hashable, tuple[float, float]]) -> bool:
         """Tell whether each single number is within the range of its parameter."""
@@ -143,7 +150,7 @@ class InputReader:
                 continue
             for key in self.keys[name]:
                 numbers[key] = self._number(self.part(key, value, present))
-        return Batch(numbers, batch)
+        return Batch(numbers, batch, parameters)
 
     def is_plain(self, name: str, value: Any) -> bool:
         """Tell whether a value is taken as it stands: a float, an array of them, or an angle."""

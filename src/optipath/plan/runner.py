@@ -5,36 +5,37 @@ from __future__ import annotations
 from contextlib import nullcontext
 from functools import cached_property
 from threading import Lock
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.choice import FLOATS, NUMPY_STEPS, default_engine
-from optipath.engines.path_formula import PathFormula
-from optipath.errors import ParameterError
+from optipath.engines.choice import (
+    COMPILER,
+    FLOATS,
+    NUMPY_STEPS,
+    REGISTRY,
+    EngineChoice,
+    default_engine,
+)
+from optipath.errors import ValueFault
 from optipath.kernels.kernel import is_defined_in
-from optipath.kernels.trigonometry import DIGITS
-from optipath.plan.batches import BatchKind, Recipe, Results, keep
-from optipath.plan.first_values import FirstValues
-from optipath.plan.for_jax import ForJax
-from optipath.plan.interpreter import Interpreter, carrier_of
-from optipath.plan.reading import InputReader, Layout, pieces
+from optipath.plan.batches import BatchRunner, Results
+from optipath.plan.reading import Layout, pieces
+from optipath.plan.runnable import Runnable
 from optipath.plan.scalar_runner import ScalarRunner
-from optipath.values.arrays import CURE, enough_for
 from optipath.values.jax_values import is_traced
-from optipath.values.operands import ABSENT, ONE
-from optipath.values.precision import wide
+from optipath.values.operands import ABSENT
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterator, Mapping
-    from contextlib import AbstractContextManager
+    from collections.abc import Hashable, Mapping
 
     from optipath.elements.own_element import OwnWays
-    from optipath.engines.formula import Formula
     from optipath.engines.program import Program
     from optipath.plan.inputs import Inputs
     from optipath.plan.questions import Question, StokesQuestion
     from optipath.plan.reading import Batch
+    from optipath.plan.runnable import RunOptions
+    from optipath.plan.scalar_runner import FloatFunction
     from optipath.values.operands import InputKey
 
     Array = np.ndarray[Any, Any]
@@ -43,29 +44,138 @@ if TYPE_CHECKING:
 CACHED = 8192
 """How many paths are taken at once, step after step."""
 
-LONGEST = 200
-"""How many steps are compiled in one piece."""
-
 _LITTLE = 1 << 20
 """How many bytes every machine has memory for."""
 
 
-class RunOptions(NamedTuple):
-    """How programs are run, as `Composer` takes it."""
+MOST_CACHED = 64
+"""How many kinds of batches are kept prepared; the oldest goes first."""
 
-    method: str
-    composing: str
-    dtype: str
-    engine: str
-    threads: int
+
+def keep(store: dict[Any, Any], key: Any, value: Any) -> None:
+    """Keep a value with others, the oldest of which go."""
+    for oldest in list(store)[: max(0, len(store) - MOST_CACHED + 1)]:
+        store.pop(oldest, None)
+    store[key] = value
+
+
+class BatchKind:
+    """Batches of one kind: one question, numbers of the same forms, the same axes."""
+
+    def __init__(
+        self,
+        question: Question,
+        forms: Mapping[InputKey, str],
+        layout: Layout,
+        single: ScalarRunner,
+        *,
+        floats: bool,
+    ) -> None:
+        self.question = question
+        self.forms = forms
+        self.layout = layout
+        self.single = single
+        self.runner = runner = single.runner
+        self.choice = EngineChoice(runner.options.engine, floats=floats, dtype=runner.options.dtype)
+
+    @cached_property
+    def batches(self) -> BatchRunner | None:
+        """What does the formula to batches; None where it cannot be made."""
+        runner, axes = self.runner, self.layout.axes
+        made = runner.attempt(lambda: self.question.formula(runner, self.forms, axes))
+        if made is None:
+            return None
+        staged = not runner.unreduced
+        return BatchRunner(made, self.layout, threads=runner.options.threads, staged=staged)
+
+    @cached_property
+    def function(self) -> FloatFunction | None:
+        """What does one path after the other; None where it cannot be made."""
+        nothing = frozenset([key for key, form in self.forms.items() if form == ABSENT])
+        return self.single.function(nothing)
 
     @property
-    def reproducible(self) -> bool:
-        """Whether a path comes to the same bits alone and in any batch, but with JAX."""
-        return self.dtype in DIGITS
+    def has_floats(self) -> bool:
+        """Whether a function of floats has been made."""
+        return bool(self.single.functions)
+
+    def operations(self, *, floats: bool) -> int | None:
+        """Return how many operations a path takes; None where no formula can be made."""
+        if floats:
+            return None if self.function is None else self.function.operations
+        return None if self.batches is None else len(self.batches.formula.steps)
+
+    @property
+    def is_stored(self) -> bool:
+        """Whether the compiler's code is on disk."""
+        return self.batches is not None and all(
+            map(REGISTRY[COMPILER].is_ready, self.batches.parts)
+        )
 
 
-class Runner:
+class Recipe:
+    """How the numbers of a batch are taken out of what is given, for batches of its shapes."""
+
+    def __init__(
+        self,
+        kind: BatchKind,
+        layout: Layout,
+        known: Mapping[Any, Any],
+        arguments: Batch,
+    ) -> None:
+        parameters = arguments.parameters
+        self.kind = kind
+        self.layout = layout
+        self.fixed: dict[Any, Any] = dict(known)
+        self.plain: list[InputKey] = []
+        self.parts: list[InputKey] = []
+        self.ranges: list[tuple[str, float, float]] = []
+        self.reader = reader = kind.runner.reader
+        # What is more than numbers within limits, which formulas look at, is looked at each time.
+        self.whole = [
+            use
+            for use in reader.inputs.distinct_uses
+            if type(value := parameters.get(use.value.name)) is np.ndarray
+            and not reader.is_plain(use.value.name, value)
+        ]
+        for key, number in arguments.numbers.items():
+            value = parameters.get(key.name)
+            if value is None or type(value) is str or key.part == "present":
+                self.fixed[key] = number
+            elif key.part in ("value", "real") and not key.is_affine:
+                self.plain.append(key)
+            else:
+                self.parts.append(key)
+            if type(value) is float:
+                self.ranges.append((key.name, *reader.inputs.limits[key.name]))
+        # What nothing needs is looked at each time, as is what follows from others, and what says
+        # more of this batch than its shapes do.
+        names = {key.name for key in arguments.numbers}
+        self.holds = parameters.keys() <= names <= reader.inputs.open.keys() and all(
+            isinstance(number, np.ndarray)
+            for key, number in arguments.numbers.items()
+            if type(parameters.get(key.name)) is np.ndarray and key.part not in ("present", "imag")
+        )
+
+    def numbers(self, parameters: Mapping[str, Any]) -> dict[Any, Any] | None:
+        """Return the numbers by the names of a formula's inputs; None if one is not allowed."""
+        for name, low, high in self.ranges:
+            if not low <= parameters[name] <= high or abs(parameters[name]) == np.inf:
+                return None
+        try:
+            for use in self.whole:
+                use.check_arguments(parameters[use.value.name])
+        except ValueFault:
+            return None
+        results = dict(self.fixed)
+        for key in self.plain:
+            results[key] = parameters[key.name]
+        for key in self.parts:
+            results[key] = self.reader.part(key, parameters[key.name])
+        return results
+
+
+class Runner(Runnable):
     """Runs one program, and keeps what has been prepared."""
 
     def __init__(
@@ -77,18 +187,7 @@ class Runner:
         *,
         unreduced: bool = False,
     ) -> None:
-        self.program = program
-        self.inputs = inputs
-        self.options = options
-        self.unreduced = unreduced
-        self.first_values = FirstValues(own_ways)
-        self.dtype = np.dtype(options.dtype)
-        self.carrier = carrier_of(program, options.composing)
-        self.may_compile = len(program.steps) <= LONGEST and options.reproducible
-        self.for_jax = ForJax(self)
-        self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
-        limits = inputs.limits if options.reproducible else None
-        self.interpreter = Interpreter(program, self.carrier, self.dtype, limits)
+        super().__init__(program, inputs, options, own_ways, unreduced=unreduced)
         self.single = ScalarRunner(self)
         self._ran = ""
         self._kinds: dict[Any, BatchKind] = {}
@@ -108,22 +207,15 @@ class Runner:
             return self._run(recipe.kind, recipe.layout, numbers, parameters)
         if self.for_jax.is_requested(parameters):
             return self._by_jax(question, parameters)
-        return self.answer_for(question, self.reader.read(parameters), parameters, key=key)
+        return self.answer_for(question, self.reader.read(parameters), key)
 
     def read(self, parameters: Mapping[str, Any]) -> Batch:
         """Return what is given as numbers."""
         return self.reader.read(parameters)
 
-    def answer_for(
-        self,
-        question: Question,
-        arguments: Batch,
-        parameters: Mapping[str, Any],
-        *,
-        key: Any = None,
-        ahead: int = 0,
-    ) -> Any:
-        """Return what is asked for numbers that have been read."""
+    def answer_for(self, question: Question, arguments: Batch, key: Any = None) -> Any:
+        """Return what is asked for numbers that have been read; with a key, prepare for others."""
+        parameters = arguments.parameters
         if self.first_values.ways:
             values = (arguments.forms(self.dtype), arguments.shape, *parameters)
             self.first_values.check(values, lambda: arguments)
@@ -137,36 +229,19 @@ class Runner:
         numbers: dict[Any, Any] = {**arguments.numbers, **known}
         arrays = {name: n for name, n in numbers.items() if isinstance(n, np.ndarray)}
         layout = Layout(arguments.shape, arrays)
-        kind = self._kind(question, arguments, layout, floats=floats)
+        forms = arguments.forms(self.dtype)
+        kind_key = question.key, forms, layout.key, floats
+        kind = self._kinds.get(kind_key)
+        if kind is None:
+            kind = BatchKind(question, dict(forms), layout, self.single, floats=floats)
+            keep(self._kinds, kind_key, kind)
         if not arguments.within(self.inputs.limits):
             self.inputs.resolve(parameters)
         elif key is not None:
-            recipe = Recipe(kind, layout, known, arguments, parameters)
+            recipe = Recipe(kind, layout, known, arguments)
             if recipe.holds:
                 keep(self._recipes, (question.key, key), recipe)
-        return self._run(kind, layout, numbers, parameters, arguments, ahead)
-
-    def read_for_bounds(self, parameters: Mapping[str, Any]) -> Batch:
-        """Return what is given, for both the bounds of light and the light."""
-        if self.program.loops:
-            raise ParameterError(
-                "there are no certificates for light that goes round in a loop; run the path, "
-                "which is exact"
-            )
-        self.for_jax.refuse_traced(parameters, "certificates are made")
-        return self.reader.read(parameters)
-
-    def _kind(
-        self, question: Question, arguments: Batch, layout: Layout, *, floats: bool
-    ) -> BatchKind:
-        """Return what this batch has in common with others."""
-        forms = arguments.forms(self.dtype)
-        key = question.key, forms, layout.key, floats
-        result = self._kinds.get(key)
-        if result is None:
-            result = BatchKind(question, dict(forms), layout, self, floats=floats)
-            keep(self._kinds, key, result)
-        return result
+        return self._run(kind, layout, numbers, parameters, arguments)
 
     def _run(
         self,
@@ -175,10 +250,9 @@ class Runner:
         numbers: Mapping[Any, Any],
         parameters: Mapping[str, Any],
         arguments: Batch | None = None,
-        ahead: int = 0,
     ) -> Any:
         question = kind.question
-        engine = kind.choice.of(layout.paths, kind, ahead)
+        engine = kind.choice.of(layout.paths, kind, arguments.ahead if arguments else 0)
         stepped = engine == NUMPY_STEPS
 
         def part(piece: Any) -> Array:
@@ -208,7 +282,12 @@ class Runner:
         """Return what is asked for, step by step."""
         several = arguments.paths > CACHED and not self.unreduced
         shared = self.interpreter.shared(arguments) if several and question.is_light else {}
-        parts = [question.rows(self, part, shared) for part in self.parts(arguments)]
+        # Parts stay in the cache, step after step.
+        if arguments.paths > CACHED:
+            wheres = (piece.where for piece in pieces(arguments.shape, CACHED))
+            parts = [question.rows(self, arguments.part(where), shared) for where in wheres]
+        else:
+            parts = [question.rows(self, arguments, shared)]
         rows = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
         return question.answer(Results.of(rows, self.dtype), arguments.shape)
 
@@ -236,67 +315,6 @@ class Runner:
                 return kind.choice.compiler
         dtype = self.dtype.name
         return default_engine(engine, count, self.length, floats=floats, dtype=dtype)
-
-    def attempt(self, make: Callable[[], Formula]) -> Formula | None:
-        """Return what makes a formula gives; None where it cannot be made."""
-        if not self.may_compile:
-            return None
-        try:
-            return make()
-        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            self.may_compile = False
-            return None
-
-    def recorded(self, forms: Mapping[InputKey, str], **options: Any) -> PathFormula:
-        """Return what records formulas, for numbers of some forms, as `PathFormula` has options."""
-        inputs, kind = self.inputs, self.dtype.name
-        return PathFormula(self.program, kind, forms, inputs.limits, masks=inputs.masks, **options)
-
-    def all_passed_as(self, form: str) -> dict[InputKey, str]:
-        """Return one form for every number that is not known."""
-        return dict.fromkeys([o.input_key for o in self.program.operands if not o.known], form)
-
-    @cached_property
-    def length(self) -> int | None:
-        """How many operations light takes for real numbers; None where there is no formula."""
-        forms, unreduced = self.all_passed_as(ONE), self.unreduced
-        forms |= {key: ABSENT for key in forms if key.part == "imag"}
-        made = self.attempt(lambda: self.recorded(forms, unreduced=unreduced).lights(self.carrier))
-        return None if made is None else len(made.steps)
-
-    @cached_property
-    def known_arrays(self) -> dict[str, Array]:
-        """The arrays that are known beforehand, as formulas name them."""
-        kind = wide(self.dtype)
-        return {
-            f".{place}": operand.numbers(kind=kind).astype(
-                bool if operand.part == "present" else self.dtype, copy=False
-            )
-            for place, operand in enumerate(self.program.operands)
-            if operand.known and operand.numbers().ndim
-        }
-
-    def enough_for(
-        self, batch: tuple[int, ...], numbers: int, cure: str = CURE
-    ) -> AbstractContextManager[None]:
-        """Return a context for so many numbers a path."""
-        return enough_for(batch, self.dtype.itemsize * numbers, cure, ParameterError)
-
-    def parts(self, arguments: Batch) -> Iterator[Batch]:
-        """Return what is given in parts that stay in the cache, step after step."""
-        if arguments.paths <= CACHED:
-            return iter([arguments])
-        return (arguments.part(piece.where) for piece in pieces(arguments.shape, CACHED))
-
-    def refuse_infinite(self, numbers: Array) -> None:
-        """Refuse light that is not finite, but for NaN where that says what cannot be."""
-        method = self.options.method
-        if not is_traced(numbers) and np.any(self.inputs.unsound(numbers)):
-            raise ParameterError(
-                f"the light is not finite in {self.dtype} by method '{method}': a value is "
-                f"too extreme{self.first_values.doubt}; give values nearer to 1"
-                + ("" if method == "stable" else ", or use method 'stable'")
-            )
 
 
 _MOST_RUNNERS = 32
@@ -343,7 +361,9 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
     parameters = (*inputs.open.values(), *inputs.bound.values())
     if any(is_traced(parameter.default) for parameter in parameters):
         return None
-    if not all(_is_pure(evaluation.kernel.factory) for evaluation in program.evaluations):
+    # A kernel of a user's own may read what changes.
+    kernels = [evaluation.kernel for evaluation in program.evaluations]
+    if not all(is_defined_in("optipath.kernels.", kernel.factory) for kernel in kernels):
         return None
     return (
         tuple(operands),

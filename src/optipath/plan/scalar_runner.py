@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from optipath.engines.float_engine import FloatPath
     from optipath.plan.inputs import Inputs
     from optipath.plan.reading import Batch, Layout
-    from optipath.plan.runner import Runner
+    from optipath.plan.runnable import Runnable
     from optipath.values.operands import InputKey
 
 
@@ -63,7 +63,7 @@ class FloatFunction(NamedTuple):
 class ScalarRunner:
     """Runs the program of a runner on plain floats."""
 
-    def __init__(self, runner: Runner) -> None:
+    def __init__(self, runner: Runnable) -> None:
         self.runner = runner
         self.inputs = runner.inputs
         self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
