@@ -239,21 +239,3 @@ class Inputs:
 def _is_complex(argument: Resolved) -> bool:
     kind = getattr(argument.value, "dtype", None)
     return isinstance(argument.value, complex) if kind is None else kind.kind == "c"
-
-
-class LargeAngles:
-    """The open parameters of a path that may make angles beyond a whole turn."""
-
-    def __init__(self, inputs: Inputs) -> None:
-        self._places: dict[str, Parameter] = {}
-        for use in inputs.uses:
-            low, high = inputs.limits[use.value.name]
-            if use.domain.dimension == "angle" and max(-low, high) > TURN:
-                self._places.setdefault(use.value.name, use.value)
-        self.looks = bool(self._places)
-
-    def look(self, arguments: Mapping[str, Any], what: str = "parameter") -> None:
-        """Warn of plain numbers that make angles beyond a whole turn."""
-        for name, place in self._places.items():
-            if name in arguments:
-                warn_of_degrees(f"{what} '{name}'", arguments[name], place.placed)
