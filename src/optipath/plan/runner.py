@@ -295,7 +295,7 @@ class Runner(Runnable):
         resolved, batch = self.inputs.resolve(parameters)
         if not self.for_jax.traces(parameters):
             self.first_values.check((*parameters, batch), lambda: self.reader.read(parameters))
-        with self.enough_for(batch, 2 * question.read):
+        with self.enough_for(batch, question.numbers(stepped=True)):
             result = question.by_jax(self, resolved, batch, parameters)
         self._ran = NUMPY_STEPS if result is None else "jax"
         if result is None:
