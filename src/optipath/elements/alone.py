@@ -12,23 +12,18 @@ from optipath.elements.frame_checks import azimuth_at
 from optipath.elements.own_element import couplings_of, own_ways
 from optipath.errors import PathError, shown
 from optipath.kernels.catalog import REFLECTION
-from optipath.kernels.primitives import NUMPY
 from optipath.light.frame import Frame
-from optipath.light.light import Light
 from optipath.light.mueller import Mueller
 from optipath.values.agreement import first_faults
-from optipath.values.arrays import broadcast_fault, check_broadcast, enough_for, joint_shape
+from optipath.values.arrays import broadcast_fault, enough_for, joint_shape
 from optipath.values.curve_value import CurveValue
-from optipath.values.operands import Operand, operand_of
+from optipath.values.operands import Operand
 from optipath.values.use import faults_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    import numpy.typing as npt
-
     from optipath.elements.coupling import Coupling
-    from optipath.values.operands import Operation
     from optipath.values.use import Use
 
 
@@ -49,32 +44,32 @@ def mueller_alone(
 ) -> Mueller:
     """Return the Mueller matrix of an element."""
     REFLECTION.by_method(method)
-    owner, (frame_in, frame_out) = element.kind or type(element).__name__, placed
+    owner = element.kind or type(element).__name__
     for port in (enters, leaves):
         if not isinstance(port, str):
             raise PathError(f"a port of {owner} must be a text, not {shown(port)}")
-    leaves = leaves or element.natural
     for argument in placed:
         if argument is not None and not isinstance(argument, Frame):
             raise PathError(f"a frame of {owner} must be a Frame, not {shown(argument)}")
-    pairs = ((enters, frame_in), (leaves, frame_out))
-    frames = {port: frame for port, frame in pairs if frame is not None}
+    leaves, ports = leaves or element.natural, {*element.inputs, *element.outputs}
+    pairs = zip((enters, leaves), placed, strict=True)
+    frames = {port: frame for port, frame in pairs if frame is not None and port in ports}
     batch = checked_alone(element, enters, frames)
     couplings = couplings_of(element)
     entering = [coupling for coupling in couplings if coupling.enters == enters]
-    for coupling in entering:
-        if coupling.leaves == leaves:
-            with enough_for(batch, _TWO_MATRICES, error=PathError):
-                for way in own_ways(owner, element, entering, method):
-                    if way.are_known() and (faults := way.faults(Operand.numbers)):
-                        raise PathError(*(text for _, text in faults))
-                matrix = coupling.matrix(method)
-            arriving = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
-            leaving = _frame_at(element, leaves, frames or {enters: arriving}) or Frame()
-            # An azimuth is in the frames alone.
-            matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
-            return Mueller.of(matrix, arriving, leaving)
-    raise PathError(_no_way(owner, enters, leaves, couplings))
+    wanted = [coupling for coupling in entering if coupling.leaves == leaves]
+    if not wanted:
+        raise PathError(_no_way(owner, enters, leaves, couplings))
+    with enough_for(batch, _TWO_MATRICES, error=PathError):
+        for way in own_ways(owner, element, entering, method):
+            if way.are_known() and (faults := way.faults(Operand.numbers)):
+                raise PathError(*(text for _, text in faults))
+        matrix = wanted[0].matrix(method)
+    arriving = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
+    leaving = _frame_at(element, leaves, frames or {enters: arriving}) or Frame()
+    # An azimuth is in the frames alone.
+    matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
+    return Mueller.of(matrix, arriving, leaving)
 
 
 def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FRAMES) -> Any:
@@ -133,29 +128,3 @@ def turned_alone(element: Any, enters: str, before: Frame | None = None) -> Fram
     """Return the frame that light arrives in, turned by the azimuth of an element."""
     frame, azimuth = before or Frame(), Operand(azimuth_at(element, enters)).numbers()
     return frame.turned_by(azimuth) if np.any(azimuth) else frame
-
-
-def absorbed_alone(
-    stack: Any, operation: Operation, light: Any, enters: str, method: str
-) -> npt.NDArray[np.float64]:
-    """Return the share (..., layers) of light that stays in each layer of a stack."""
-    if enters not in stack.inputs:
-        raise PathError(
-            f"{stack.kind} has no in-port {shown(enters)}; light arrives at 'in' or at 'back'"
-        )
-    batch = checked_alone(stack, enters)
-    with np.errstate(all="ignore"):
-        numbers = operation.numbers(NUMPY, lambda value: operand_of(value).numbers({}), method)
-        shares = [np.broadcast_to(number, batch) for number in numbers]
-        s, p = (
-            np.stack(part, axis=-1) if part else np.empty((*batch, 0))
-            for part in (shares[::2], shares[1::2])
-        )
-        along: Any = 0.0
-        if light is not None:
-            arriving = light if isinstance(light, Light) else Light(light)
-            check_broadcast({stack.kind: batch, "the light": arriving.stokes.shape[:-1]})
-            frame = turned_alone(stack, enters, arriving.frame)
-            stokes = (Mueller.of(np.eye(4), frame, Frame()) @ arriving).stokes
-            along = (stokes[..., 1] / stokes[..., 0])[..., np.newaxis]
-        return np.asarray(0.5 * ((1.0 + along) * s + (1.0 - along) * p))

@@ -11,7 +11,7 @@ import numpy as np
 from optipath.elements.boundary_media import MediaOfBoundary
 from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.element import Element
-from optipath.elements.frame_checks import angle_between, incidence_between, share_x
+from optipath.elements.frame_checks import angle_between, incidence_between, x_faults
 from optipath.kernels.fresnel.boundary import phase_index, refraction
 from optipath.kernels.primitives import of_module
 from optipath.light.frame import Frame
@@ -19,11 +19,11 @@ from optipath.materials.index_domains import FOLLOWS, INDEX, LIT_BEHIND
 from optipath.values.agreement import Agreement, first_faults, is_single, text_of
 from optipath.values.arrays import broadcast_fault
 from optipath.values.operands import Operand, operand_of
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
 
-    from optipath.values.domains import Domain
     from optipath.values.operands import Operation
 
 
@@ -65,6 +65,7 @@ class BoundaryElement(MediaOfBoundary, FourPort):
     """
 
     may_follow: ClassVar[tuple[str, ...]] = ("outside", "incidence")
+    lit_behind = LIT_BEHIND
 
     @property
     def measured(self) -> tuple[Any, Any]:
@@ -73,21 +74,26 @@ class BoundaryElement(MediaOfBoundary, FourPort):
         before = getattr(face, "incidence_in", None)
         return face.incidence, face.outside if before is None else before
 
-    def domains_entered(self, port: str) -> Mapping[str, Domain]:
-        """Return that the medium behind must not absorb where light comes from there."""
-        return {"index": LIT_BEHIND} if port == "back" else {}
+    def uses_entered(self, owner: str, port: str) -> list[Use]:
+        face: Any = self
+        parts = self.lit_behind.parts(self.media_fields[1], face.index) if port == "back" else []
+        return [Use(f"{owner}.{name}", value, domain) for name, value, domain in parts]
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
         return frames.get(port) or _refracted_frame(self, port, frames)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        placed = list(frames.items())
-        faulty = [port for port, frame in placed if not share_x(frame, placed[0][1])]
-        if faulty:
-            ports = " and ".join(f"'{owner}.{port}'" for port in (placed[0][0], *faulty))
-            problem = f"the frames of {ports} must share one x"
-            return [f"{problem}, perpendicular to the plane of incidence"]
-        return [*_open_incidence_faults(owner, self, frames), *_angle_faults(owner, self, frames)]
+        if faults := x_faults(owner, frames):
+            return faults
+        both = {"in", "reflected"} <= frames.keys()
+        if both and not Operand(self.incidence).known:
+            result = np.ravel(incidence_between(frames["in"], frames["reflected"]))[0]
+            faults.append(
+                f"the frames of '{owner}' meet at an incidence of {np.degrees(result):.9g} deg; "
+                f"give that, not the parameter '{self.incidence.name}'"
+            )
+        laws = [law for law in world_angles(owner, self, frames) if not law.is_open]
+        return faults + (first_faults(laws) if laws and not self.faults(owner) else [])
 
 
 def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Frame | None:
@@ -111,23 +117,6 @@ def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Fr
 def _unit(vector: Any) -> Any:
     length = np.linalg.norm(vector, axis=-1, keepdims=True)
     return vector / np.where(length > 0.0, length, 1.0)
-
-
-def _open_incidence_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[str]:
-    incidence = element.incidence
-    if {"in", "reflected"} <= frames.keys() and not Operand(incidence).known:
-        result = incidence_between(frames["in"], frames["reflected"])
-        yield (
-            f"the frames of '{owner}' meet at an incidence of "
-            f"{np.degrees(np.ravel(result)[0]):.9g} deg; give that, not the parameter "
-            f"'{incidence.name}'"
-        )
-
-
-def _angle_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> list[str]:
-    """Return where the angles between frames are not those of values that are known."""
-    laws = [law for law in world_angles(owner, element, frames) if not law.is_open]
-    return first_faults(laws) if laws and not element.faults(owner) else []
 
 
 def _known_angles(element: Any) -> tuple[Any, Any] | None:

@@ -88,12 +88,9 @@ class ArrivingWave(Agreement):
 
     def _wave(self, xp: Any, n: Any, k: Any, n0: Any, k0: Any, angle: Any) -> tuple[Any, Any]:
         """Return the real and the imaginary part of the wave along the normal."""
-        primitives = of_module(xp)
-        c, s = xp.cos(angle), xp.sin(angle)
         with np.errstate(all="ignore"):
-            (q,) = phase_index(primitives)(n0, k0, c, s)
-            at = inhomogeneous_boundary(primitives)(n, k, n, k, q, c, s)
-        return at.p / at.n1 * n, at.fades / at.n1 * n
+            (q,) = phase_index(of_module(xp))(n0, k0, xp.cos(angle), xp.sin(angle))
+        return along_normal(xp, n, k, q, angle)
 
     def _largest(self, n: float, k: float, n0: float, k0: float) -> float:
         """Return the largest incidence: of y^2 = n^2 - k^2, where Re g^2 is 0."""
@@ -101,6 +98,14 @@ class ArrivingWave(Agreement):
         with np.errstate(all="ignore"):
             c, s = refraction(NUMPY)(*map(np.float64, (y, n0, k0, 0.0, 1.0)))
         return float(np.arctan2(s, c))
+
+
+def along_normal(xp: Any, n: Any, k: Any, n0: Any, angle: Any) -> tuple[Any, Any]:
+    """Return the real and the imaginary part of the wave along the normal, of an angle in n0."""
+    arguments = n, k, n, k, n0, xp.cos(angle), xp.sin(angle)
+    with np.errstate(all="ignore"):
+        at = inhomogeneous_boundary(of_module(xp))(*arguments)
+        return at.p / at.n1 * n, at.fades / at.n1 * n
 
 
 def arriving_waves(owner: str, element: Any, port: str) -> list[ArrivingWave]:

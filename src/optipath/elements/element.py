@@ -205,11 +205,6 @@ class Element(Chainable):
             domains = {name: domain.unphysical for name, domain in domains}.items()
         return chain(*[domain.parts(name, getattr(self, name)) for name, domain in domains])
 
-    def domains_entered(self, port: str) -> Mapping[str, Domain]:
-        """Return what values must be besides, where a link leads to a port."""
-        del port
-        return {}
-
     def uses_entered(self, owner: str, port: str) -> list[Use]:
         """Return the numbers that must be something besides, where a link leads to a port.
 
@@ -222,11 +217,8 @@ class Element(Chainable):
         -------
         list of Use
         """
-        return [
-            Use(f"{owner}.{name}", value, domain)
-            for field, limits in self.domains_entered(port).items()
-            for name, value, domain in limits.parts(field, getattr(self, field))
-        ]
+        del owner, port
+        return []
 
     def parameters(self) -> Iterator[Parameter]:
         """Yield the parameters among the values, and those that such follow from."""

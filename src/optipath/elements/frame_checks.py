@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy.typing as npt
 
     from optipath.light.frame import Frame
@@ -33,6 +35,16 @@ def share_x(first: Frame, second: Frame) -> bool:
     """
     across = np.linalg.norm(np.cross(first.x, second.x), axis=-1)
     return bool(np.all(across <= first.rounding_to(second)))
+
+
+def x_faults(owner: str, frames: Mapping[str, Frame]) -> list[str]:
+    """Return which ports have not the x of the first, as s is that of all ports of a boundary."""
+    first, *others = frames.items() or [("", None)]
+    faulty = [port for port, frame in others if not share_x(frame, first[1])]
+    if not faulty:
+        return []
+    ports = " and ".join(f"'{owner}.{port}'" for port in (first[0], *faulty))
+    return [f"the frames of {ports} must share one x, perpendicular to the plane of incidence"]
 
 
 def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float64]:

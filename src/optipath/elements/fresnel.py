@@ -180,12 +180,8 @@ def refraction_angle(
     """
     for value in (index, incidence, outside):
         check_known("refraction_angle", value)
-    m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
-    cos, sin = incidence_argument(incidence)
-    check_broadcast({"index": m.shape, "incidence": cos.shape, "outside": front.shape})
-    n1, k1 = parts_of(front)
-    cos = arriving_cosine(cos, k1)
-    n1, k1, n, k, cos, sin = np.broadcast_arrays(n1, k1, *parts_of(m), cos, sin)
+    numbers = _media_and_angle(index, outside, incidence_argument(incidence))
+    n1, k1, n, k, cos, sin = np.broadcast_arrays(*numbers)
     with np.errstate(all="ignore"):
         c, s = refraction(NUMPY)(*phase_index(NUMPY)(n1, k1, cos, sin), n, k, cos, sin)
     return np.asarray(np.arctan2(s, c))
@@ -260,19 +256,11 @@ def fresnel_amplitudes(
     >>> print(np.degrees(np.angle(gold.r_s)).round(3), np.degrees(np.angle(gold.r_p)).round(3))
     -142.201 59.497
     """
-    m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
-    c, s = plain_cosine_and_sine(cos_incidence, sin_incidence)
-    check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
-    n1, k1 = parts_of(front)
-    numbers = kernel_values(
-        single_amplitudes, n1, k1, *parts_of(m), arriving_cosine(c, k1), s + 0.0
-    )
+    angle = plain_cosine_and_sine(cos_incidence, sin_incidence)
+    numbers = kernel_values(single_amplitudes, *_media_and_angle(index, outside, angle))
     pairs = zip(numbers[::2], numbers[1::2], strict=True)
-    return FresnelAmplitudes(*(_complex(re, im) for re, im in pairs))
-
-
-def _complex(re: Any, im: Any) -> Any:
-    return re + 1j * im
+    r_s, r_p, t_s, t_p = (re + 1j * im for re, im in pairs)
+    return FresnelAmplitudes(r_s, r_p, t_s, t_p)
 
 
 class EffectiveIndex(NamedTuple):
@@ -334,11 +322,7 @@ def effective_index(
     >>> print(gold.n.round(6), gold.k.round(6))
     1.034329 2.279161
     """
-    m, front = index_argument("index", index), index_argument("outside", outside, lit=True)
-    c, s = incidence_argument(incidence)
-    check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
-    n1, k1 = parts_of(front)
-    numbers = n1, k1, *parts_of(m), arriving_cosine(c, k1), s + 0.0
+    numbers = _media_and_angle(index, outside, incidence_argument(incidence))
     return EffectiveIndex(*kernel_values(boundary.effective_index, *numbers))
 
 
@@ -346,9 +330,24 @@ COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
 _APART, _GRAZING = 1e-6, 2.0**-60
 
 
-def index_argument(name: str, value: Any, *, lit: bool = False) -> Any:
-    """Return an index of refraction n + ik; NaN where JAX traces what is none."""
-    return number_within(LIT_INDEX if lit else INDEX, name, value)
+def _media_and_angle(index: Any, outside: Any, angle: tuple[Any, Any]) -> tuple[Any, ...]:
+    """Return n1, k1, n, k, cos and sin, each allowed, none -0; NaN where JAX traces others.
+
+    At a right angle, media must not absorb: the wave along the face grows without limit next to it.
+    """
+    m, front = number_within(INDEX, "index", index), number_within(LIT_INDEX, "outside", outside)
+    c, s = angle
+    check_broadcast({"index": m.shape, "incidence": c.shape, "outside": front.shape})
+    n1, k1, n, k = (part for each in (front, m) for part in parts_of(each))
+    none = (k1 > 0.0) & (c <= _GRAZING)
+    if is_traced(none):
+        c = namespace(none).where(none, np.nan, c)
+    elif np.any(none):
+        raise ValueFault(
+            f"incidence{first_place(none)} is a right angle out of a medium that absorbs, where "
+            f"there is no such wave; give a smaller one, or an outside without k"
+        )
+    return n1, k1, n, k, c, s + 0.0
 
 
 def number_within(domain: Domain, name: str, value: Any) -> Any:
@@ -383,22 +382,6 @@ def incidence_argument(value: Any) -> tuple[Any, Any]:
     check_broadcast({"incidence": angle.shape})
     cos, sin = kernel_values(_cosine_and_sine, angle)
     return cos, sin
-
-
-def arriving_cosine(cos: Any, k1: Any) -> Any:
-    """Return the cosine of the angle at which light arrives out of a medium with k = k1.
-
-    At a right angle, media must not absorb: the wave along the face grows without limit next to it.
-    """
-    none = (k1 > 0.0) & (cos <= _GRAZING)
-    if is_traced(none):
-        return namespace(none).where(none, np.nan, cos)
-    if np.any(none):
-        raise ValueFault(
-            f"incidence{first_place(none)} is a right angle out of a medium that absorbs, where "
-            f"there is no such wave; give a smaller one, or an outside without k"
-        )
-    return cos
 
 
 def parts_of(index: Any) -> tuple[Any, Any]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.coupling import Coupling, numbers_of
 from optipath.elements.element import Element
-from optipath.elements.frame_checks import share_x
+from optipath.elements.frame_checks import x_faults
 from optipath.elements.known_sizes import vanishes
 from optipath.kernels.catalog import (
     PHASE_INDEX,
@@ -37,7 +37,6 @@ if TYPE_CHECKING:
 
     from optipath.kernels.kernel import KernelFamily
     from optipath.light.frame import Frame
-    from optipath.values.domains import Domain
 
 
 class Interface(BoundaryElement, kind="interface"):
@@ -92,6 +91,7 @@ class Interface(BoundaryElement, kind="interface"):
 
     mirrored: ClassVar[tuple[str, ...]] = ()
     lit_from_absorbing: ClassVar[bool] = True
+    lit_behind = LIT_INDEX
 
     index: Index
     incidence: FollowedIncidence
@@ -99,10 +99,6 @@ class Interface(BoundaryElement, kind="interface"):
     azimuth: Angle = 0.0
     incidence_in: OptionalLitIndex | None = None
     parallel: YesOrNo = True
-
-    def domains_entered(self, port: str) -> Mapping[str, Domain]:
-        """Return that light cannot come from a medium behind of index 0."""
-        return {"index": LIT_INDEX} if port == "back" else {}
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side.
@@ -209,7 +205,4 @@ class Mirror(Element, kind="mirror"):
         return (Coupling("in", "reflected", (reflecting,), reflects=True),)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        if not {"in", "reflected"} <= frames.keys() or share_x(frames["in"], frames["reflected"]):
-            return []
-        problem = f"the frames of '{owner}.in' and '{owner}.reflected' must share one x"
-        return [f"{problem}, perpendicular to the plane of incidence"]
+        return x_faults(owner, frames)

@@ -4,54 +4,25 @@ from __future__ import annotations
 
 from typing import Any
 
-from optipath.elements.coupling import KINDS
-from optipath.elements.ends import Detector, Dump, Source
-from optipath.elements.interface import Interface, Mirror
-from optipath.elements.layer_stack import LayerStack
-from optipath.elements.medium import Medium
-from optipath.elements.mueller_element import MuellerElement
-from optipath.elements.polarizers import (
-    Attenuator,
-    CircularDiattenuator,
-    CircularPolarizer,
-    Depolarizer,
-    Diattenuator,
-    Polarizer,
+# Importing them enters their kinds.
+from optipath.elements import (  # noqa: F401
+    ends,
+    interface,
+    layer_stack,
+    medium,
+    mueller_element,
+    polarizers,
+    retarders,
+    rotators,
+    splitters,
+    vertices,
 )
-from optipath.elements.retarders import EllipticalRetarder, Retarder, Waveplate
-from optipath.elements.rotators import FaradayRotator, Rotator
-from optipath.elements.splitters import BeamSplitter, Combiner, PolarizingBeamSplitter
-from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
+from optipath.elements.coupling import KINDS
+from optipath.elements.own_element import is_own
 from optipath.errors import PathError, did_you_mean
 
-STANDARD = (
-    Attenuator,
-    BeamSplitter,
-    CircularPolarizer,
-    CircularDiattenuator,
-    Combiner,
-    Depolarizer,
-    Diattenuator,
-    FaradayRotator,
-    EllipticalRetarder,
-    Interface,
-    LayerStack,
-    Medium,
-    Mirror,
-    MuellerElement,
-    Polarizer,
-    PolarizingBeamSplitter,
-    RefractingVertex,
-    Retarder,
-    Rotator,
-    Source,
-    SpecularVertex,
-    Detector,
-    Dump,
-    Waveplate,
-    Vertex,
-)
-"""The elements that come with the library; importing them has entered their kinds."""
+STANDARD = tuple([known for known in KINDS.values() if not is_own(known)])
+"""The elements that come with the library."""
 
 
 def element_class(kind: str) -> type[Any]:

@@ -9,16 +9,19 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from optipath.elements.alone import absorbed_alone
+from optipath.elements.alone import checked_alone, turned_alone
 from optipath.elements.boundary import BoundaryElement
+from optipath.elements.boundary_media import along_normal
 from optipath.elements.coupling import numbers_of
 from optipath.elements.known_sizes import vanishes
-from optipath.errors import CoherenceWarning
+from optipath.errors import CoherenceWarning, PathError, shown
 from optipath.kernels.catalog import stack
 from optipath.kernels.fresnel.absorbing import interference
-from optipath.kernels.fresnel.boundary import inhomogeneous_boundary
 from optipath.kernels.fresnel.layers import attenuation
-from optipath.kernels.primitives import of_module
+from optipath.kernels.primitives import NUMPY, of_module
+from optipath.light.frame import Frame
+from optipath.light.light import Light
+from optipath.light.mueller import Mueller
 from optipath.materials.index_domains import (
     FOLLOWS,
     INDEX,
@@ -39,9 +42,8 @@ from optipath.materials.quantities import (
 )
 from optipath.values.agreement import Agreement, text_of
 from optipath.values.angles import calls_up
-from optipath.values.arrays import changed
+from optipath.values.arrays import changed, check_broadcast
 from optipath.values.operands import NOTHING, Operand, Operation, operand_of
-from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
@@ -49,7 +51,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.elements.coupling import Coupling
-    from optipath.light.light import Light
     from optipath.values.domains import Domain
     from optipath.values.parameters import Resolved
 
@@ -133,25 +134,6 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         for name, domain in self.domains().items():
             yield from narrowed.get(name, domain).parts(name, getattr(self, name))
 
-    def uses_entered(self, owner: str, port: str) -> list[Use]:
-        """Return the substrate, which must not absorb where light comes from there.
-
-        Parameters
-        ----------
-        owner, port : str
-            What sentences call the stack, and the in-port.
-
-        Returns
-        -------
-        list of Use
-        """
-        last = f"indices[{len(self._media) - 1}]"
-        return [
-            Use(f"{owner}.{name}", value, domain)
-            for limits in self.domains_entered(port).values()
-            for name, value, domain in limits.parts(last, self.index)
-        ]
-
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side."""
         return self._ways(
@@ -202,8 +184,30 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         >>> print(stack.absorbed().round(6))
         [0.218291 0.      ]
         """
-        result = absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
-        return result[..., ::-1] if enters == "back" else result
+        if enters not in self.inputs:
+            raise PathError(
+                f"{self.kind} has no in-port {shown(enters)}; light arrives at 'in' or at 'back'"
+            )
+        batch, operation = checked_alone(self, enters), self._operation("absorbed", enters)
+        with np.errstate(all="ignore"):
+            numbers = operation.numbers(NUMPY, lambda value: operand_of(value).numbers({}), method)
+            shares = [np.broadcast_to(number, batch) for number in numbers]
+            # From the first medium on, whichever light meets first.
+            several = shares[::2], shares[1::2]
+            s, p = (
+                np.stack(part[:: -1 if enters == "back" else 1], axis=-1)
+                if part
+                else np.empty((*batch, 0))
+                for part in several
+            )
+            along: Any = 0.0
+            if light is not None:
+                arriving = light if isinstance(light, Light) else Light(light)
+                check_broadcast({self.kind: batch, "the light": arriving.stokes.shape[:-1]})
+                frame = turned_alone(self, enters, arriving.frame)
+                stokes = (Mueller.of(np.eye(4), frame, Frame()) @ arriving).stokes
+                along = (stokes[..., 1] / stokes[..., 0])[..., np.newaxis]
+            return np.asarray(0.5 * ((1.0 + along) * s + (1.0 - along) * p))
 
     def agreements(self, owner: str) -> Iterator[Agreement]:
         """Yield what must hold of the layers that may absorb, and what is known at a run only."""
@@ -307,9 +311,9 @@ class FadingLayer(Agreement):
     layer: str
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
-        k, length, wavelength = numbers[3], *numbers[6:8]
+        n, k, _, _, length, wavelength, n0, angle = numbers[2:]
         if xp is np:
-            goes_on, _ = self._wave(*numbers)
+            goes_on, _ = along_normal(np, n, k, n0, angle)
             enough = (2.0 * math.pi * length * goes_on >= wavelength) | (k == 0.0)
             # Most are far thicker, and nobody need look at their faces.
             if np.all(enough):
@@ -321,9 +325,9 @@ class FadingLayer(Agreement):
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying
-        *_, n, k, _, _, length, wavelength, _, _ = numbers
+        n, k, _, _, length, wavelength, n0, angle = numbers[2:]
         more = -min(float(share) for share in self._absorbed_shares(np, *numbers))
-        fades = float(self._wave(*numbers)[1])
+        fades = float(along_normal(np, n, k, n0, angle)[1])
         least = math.log1p(more) * wavelength / (4.0 * math.pi * fades)
         _, _, of_n, of_k, _, _, of_length, of_wavelength, *_ = self.operands
         return (
@@ -354,15 +358,6 @@ class FadingLayer(Agreement):
         other = interference(of_module(xp))
         with np.errstate(all="ignore"):
             return *other(*above, n, k, *arguments)[2:], *other(n, k, *below, *arguments)[:2]
-
-    @staticmethod
-    def _wave(*numbers: Any) -> tuple[Any, Any]:
-        """Return the real and the imaginary part of g."""
-        *_, n, k, _, _, _, _, n0, angle = numbers
-        with np.errstate(all="ignore"):
-            arguments = n, k, n, k, n0, np.cos(angle), np.sin(angle)
-            at = inhomogeneous_boundary(of_module(np))(*arguments)
-            return at.p / at.n1 * n, at.fades / at.n1 * n
 
 
 _WAVELENGTHS = 10.0

@@ -311,7 +311,7 @@ def operations_along(medium: Any) -> tuple[Operation, ...]:
     linear, circular = not vanishes(medium.dichroism), not vanishes(medium.circular_dichroism)
     rotates = not (vanishes(medium.rotation) and vanishes(medium.dextrorotation))
     retards, depolarizes = not vanishes(medium.retardance), not vanishes(medium.depolarization)
-    absorbing = _absorbing(medium, dichroic=linear or circular)
+    absorbing, length = _absorbing(medium, dichroic=linear or circular), medium.length
     if depolarizes and (linear or circular):
         return *absorbing, *_together(medium, DEPOLARIZING_DICHROISM_ALONG, medium.depolarization)
     depolarizing = _along(medium, DEPOLARIZATION_ALONG, medium.depolarization)
@@ -319,44 +319,29 @@ def operations_along(medium: Any) -> tuple[Operation, ...]:
     if two_axes or ((linear or retards) and (circular or rotates)):
         at_once = _together(medium, DICHROISM_AND_RETARDANCE_ALONG)
     elif linear:
-        at_once = _filtering_along_axis(medium)
-    elif circular:
-        at_once = (*_rotating(medium), *_filtering_circularly(medium))
+        rates = medium.dichroism, medium.retardance, length
+        at_once = turned(medium.dichroic_axis, Operation(DICHROISM_ALONG, rates))
     else:
-        at_once = (*_rotating(medium), *_retarding(medium))
+        at_once = _along(medium, ROTATION_ALONG, medium.rotation)
+        at_once += _along(medium, DEXTROROTATION_ALONG, medium.dextrorotation)
+        if circular:
+            rates = medium.circular_dichroism, 0.0, length
+            at_once += along_circular_axes(Operation(DICHROISM_ALONG, rates))
+        elif retards:
+            at_once += turned(medium.angle, *_along(medium, RETARDANCE_ALONG, medium.retardance))
     return *absorbing, *depolarizing, *at_once
 
 
 def _absorbing(medium: Any, *, dichroic: bool) -> tuple[Operation, ...]:
     is_far = largest(medium.absorption) * largest(medium.length) > _FAR
-    count = 3 if is_far else 1
     if dichroic:
         kernel = THIRD_WITH_DICHROISM if is_far else ABSORPTION_WITH_DICHROISM
         rates = medium.absorption, medium.dichroism, medium.circular_dichroism
-        return count * (Operation(kernel, (*rates, medium.length)),)
-    kernel = THIRD_OF_ABSORPTION if is_far else ABSORPTION_ALONG
-    return count * _along(medium, kernel, medium.absorption)
-
-
-def _rotating(medium: Any) -> tuple[Operation, ...]:
-    rotating = _along(medium, ROTATION_ALONG, medium.rotation)
-    return rotating + _along(medium, DEXTROROTATION_ALONG, medium.dextrorotation)
-
-
-def _retarding(medium: Any) -> tuple[Operation, ...]:
-    retarding = _along(medium, RETARDANCE_ALONG, medium.retardance)
-    return turned(medium.angle, *retarding) if retarding else ()
-
-
-def _filtering_along_axis(medium: Any) -> tuple[Operation, ...]:
-    """Return linear dichroism, and retardance along the same axis."""
-    rates = medium.dichroism, medium.retardance, medium.length
-    return turned(medium.dichroic_axis, Operation(DICHROISM_ALONG, rates))
-
-
-def _filtering_circularly(medium: Any) -> tuple[Operation, ...]:
-    rates = medium.circular_dichroism, 0.0, medium.length
-    return along_circular_axes(Operation(DICHROISM_ALONG, rates))
+        once: tuple[Operation, ...] = (Operation(kernel, (*rates, medium.length)),)
+    else:
+        kernel = THIRD_OF_ABSORPTION if is_far else ABSORPTION_ALONG
+        once = _along(medium, kernel, medium.absorption)
+    return 3 * once if is_far else once
 
 
 def _together(medium: Any, kernel: Kernel, *first: Any) -> tuple[Operation, ...]:

@@ -10,7 +10,7 @@ import numpy as np
 from optipath.elements.boundary import FourPort
 from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
-from optipath.elements.frame_checks import same_frame, share_x
+from optipath.elements.frame_checks import same_frame, x_faults
 from optipath.kernels.catalog import (
     COMPLEMENT,
     MIRROR,
@@ -57,23 +57,13 @@ class Splitter(FourPort):
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         results = []
-        for enters, passes, turns in (
-            ("in", "transmitted", "reflected"),
-            ("back", "reflected", "transmitted"),
-        ):
-            entry = frames.get(enters)
-            if entry is None:
-                continue
-            if not same_frame(frames.get(passes, entry), entry):
+        for enters, passes in (("in", "transmitted"), ("back", "reflected")):
+            if {enters, passes} <= frames.keys() and not same_frame(frames[enters], frames[passes]):
                 results.append(
                     f"'{owner}' lets transmitted light go straight through; give "
                     f"'{owner}.{enters}' and '{owner}.{passes}' one frame"
                 )
-            if not share_x(frames.get(turns, entry), entry):
-                results.append(
-                    f"the frames of '{owner}.{enters}' and '{owner}.{turns}' must share one x"
-                )
-        return results
+        return results or x_faults(owner, frames)
 
 
 class BeamSplitter(Splitter, kind="beam-splitter"):

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.elements.vertex_chain import VerticesByAngles, of_chain, pieces_of
-from optipath.errors import FrameError, ShapeError, ValueFault, shown
-from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED, REFRACTION
+from optipath.errors import FrameError, ValueFault, shown
+from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED
 from optipath.kernels.kernel import Kernel
 from optipath.kernels.primitives import NUMPY, of_module
 from optipath.kernels.vectors import dot, minus
@@ -20,7 +20,6 @@ from optipath.light.frame import Frame
 from optipath.materials.quantities import Quantity
 from optipath.values.agreement import Agreement, text_of
 from optipath.values.arrays import (
-    as_argument,
     check_broadcast,
     enough_for,
     first_place,
@@ -50,12 +49,7 @@ _DOUBLE = np.dtype(np.float64)
 
 @dataclass(frozen=True, eq=False)
 class PlaceInChain:
-    """Which vertex of a chain, as somebody says it; it may be none.
-
-    >>> import numpy as np
-    >>> PlaceInChain(np.eye(3), 2, None).faults("mirror")
-    ['mirror.place must be a whole number of 1 .. 1, not 2']
-    """
+    """Which vertex of a chain, as somebody says it; it may be none."""
 
     vertices: Any
     number: Any
@@ -81,7 +75,7 @@ class PlaceInChain:
 
     def points_around(self) -> Coordinates:
         """Return the vertex between its neighbours."""
-        return self._points(self._number - 1)
+        return self._points(self.at - 1)
 
     def points_from_start(self) -> Coordinates:
         """Return all points up to the one behind the vertex."""
@@ -104,22 +98,25 @@ class PlaceInChain:
         return result
 
     @property
-    def _number(self) -> int:
-        # What is no place is told as a fault, and must not be in the way until then.
+    def at(self) -> int:
+        """The number; 1 or the last where it is no place, which is told as a fault."""
         number = self.number if is_whole(self.number) else 1
         return min(number, max(self.count, 1))
 
     def _points(self, first: int) -> Coordinates:
-        return coordinates(self.vertices, self.tail[0], first, self._number + 1)
+        last = self.at + 1
+        if isinstance(self.vertices, VerticesByAngles):
+            angles = [angle for _, angle, _ in self.vertices.parts("")]
+            operands = tuple(Operand(angle, part) for angle in angles for part in ("cos", "sin"))
+            backwards = self.vertices.backwards
+            points = PointsByAngles(self.count, first, last, backwards=backwards)
+            return Coordinates(operands, points)
+        places = range(3 * first, 3 * last + 3)
+        return Coordinates(tuple(Operand(self.vertices, at, self.tail) for at in places), None)
 
 
 def same_points(first: Any, second: Any) -> bool:
-    """Tell whether two chains are equal; points that are not finite are, where they stand alike.
-
-    >>> import numpy as np
-    >>> same_points(np.full((3, 3), np.nan), np.full((3, 3), np.nan))
-    True
-    """
+    """Tell whether two chains are equal; points that are not finite are, where they stand alike."""
     if same(first, second):
         return True
     kinds = {getattr(chain, "dtype", None) for chain in (first, second)}
@@ -157,23 +154,6 @@ class Coordinates(NamedTuple):
         return Operation(Kernel("points", None, points), self.arguments).results(points.gives)
 
 
-def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates:
-    """Return the coordinates of some points of a chain.
-
-    >>> import numpy as np
-    >>> found = coordinates(np.eye(3), 3, 1, 2)
-    >>> [float(view.numbers({})) for view in found.arguments]
-    [0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
-    """
-    if isinstance(vertices, VerticesByAngles):
-        angles = [angle for _, angle, _ in vertices.parts("")]
-        operands = tuple(Operand(angle, part) for angle in angles for part in ("cos", "sin"))
-        count, backwards = len(vertices.incidences), vertices.backwards
-        return Coordinates(operands, PointsByAngles(count, first, last, backwards=backwards))
-    places = range(3 * first, 3 * last + 3)
-    return Coordinates(tuple(Operand(vertices, place, (count, 3)) for place in places), None)
-
-
 @dataclass(frozen=True)
 class EventsDomain(Domain):
     """A number of an `Event` for each vertex of a chain."""
@@ -189,18 +169,13 @@ class EventsDomain(Domain):
         raise ValueFault(f"{owner} cannot be a parameter; give {self.described()}")
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        if np.all(_are_events(array)):
-            return  # As quickly as that; the rest is for words.
-        super()._check_numbers(owner, array, rounding)
-        bad = array != np.rint(array)
+        del rounding
+        events = Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT
+        known = reduce(np.logical_or, (array == event for event in events))
+        bad = ~known | (array.dtype.kind == "c")
         if np.any(bad):
-            number = array[bad].ravel()[0]
+            number = f"{array[bad].ravel()[0]:g}"
             raise ValueFault(f"{owner} is {number}{first_place(bad)}; give {self.described()}")
-
-
-def _are_events(array: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
-    events = Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT
-    return reduce(np.logical_or, (array == event for event in events))
 
 
 EVENTS = EventsDomain("event", minimum=Event.REFLECTS, maximum=Event.CANNOT)
@@ -234,7 +209,7 @@ class EventFits(Agreement):
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.
-        event, _, _, k, *points = numbers
+        event, n1, n2, k, *points = numbers
         others = "give others, or bad='mask', by which the light of such chains is NaN"
         if event == Event.CANNOT:
             return f"there is no such chain, says the event at '{self.owner}'; {others}"
@@ -251,14 +226,23 @@ class EventFits(Agreement):
                 f"light is refracted at '{self.owner}' into a medium that absorbs, k = {k:g}; let "
                 f"it be reflected there (R for T), {others}"
             )
-        snell = SnellAtVertex((self.operands[1], self.operands[2], *self.operands[4:]), self.owner)
-        return f"{snell.sentence(*numbers[1:3], *points)}; or give bad='mask'"
+        before, behind = map(text_of, self.operands[1:3], (n1, n2))
+        most = math.degrees(math.acos(min(n1, n2) / max(n1, n2)))
+        allowed = f"turns it by {most:.9g} deg at most" if most else "lets it go straight on"
+        return (
+            f"light is turned by {deviation(points):.9g} deg at '{self.owner}', but a refraction "
+            f"from n = {before} into n = {behind} {allowed}; move the points, give other "
+            f"media, let it be reflected there (events with R for T, or a specular vertex), or "
+            f"give bad='mask'"
+        )
 
 
 def _fits(xp: Any, *numbers: Any) -> Any:
     event, n1, n2, k, *points = numbers
     *_, cos, _ = EVENT_AT_VERTEX.made_for(of_module(xp))(n1, n2, k, event, *points)
-    return ~xp.isnan(cos) | (event == Event.BEHIND)
+    # Indices that are none are told elsewhere.
+    unsound = ~((n1 > 0.0) & (n2 > 0.0) & xp.isfinite(n1 + n2))
+    return ~xp.isnan(cos) | (event == Event.BEHIND) | unsound
 
 
 def _surely_fits(event: Any, n1: Any, n2: Any, k: Any, *points: Any) -> Any:
@@ -277,52 +261,8 @@ def _surely_fits(event: Any, n1: Any, n2: Any, k: Any, *points: Any) -> Any:
     return np.atleast_1d(fits | (event == Event.BEHIND))
 
 
-@dataclass(frozen=True, eq=False)
-class SnellAtVertex(Agreement):
-    """A surface between two media can turn light so far by refraction.
-
-    The operands are the indices in front and behind, and the coordinates of three points.
-    """
-
-    owner: str
-
-    shows_in_light = True
-
-    def fits(self, xp: Any, *numbers: Any) -> Any:
-        n1, n2, *points = numbers
-        primitives = of_module(xp)
-        half, _ = INCIDENCE.made_for(primitives)(*points)
-        # Short of the most that light may be turned by, as nearly all is, nothing else is asked.
-        larger = xp.maximum(n1, n2)
-        surely = 2.0 * half * half * larger < larger - xp.minimum(n1, n2)
-        if xp is np and np.all(surely):
-            return surely
-        *_, cos, _ = REFRACTION.made_for(primitives)(n1, n2, *points)
-        # Faulty indices and points are told elsewhere.
-        sound = (n1 > 0.0) & (n2 > 0.0) & xp.isfinite(larger) & ~xp.isnan(half)
-        return ~xp.isnan(cos) | ~sound
-
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying  # No number is a cure.
-        n1, n2, *points = numbers
-        media = [text_of(operand, n) for operand, n in zip(self.operands, (n1, n2), strict=False)]
-        turned = deviation(points)
-        most = math.degrees(math.acos(min(n1, n2) / max(n1, n2)))
-        between = f"from n = {media[0]} into n = {media[1]}"
-        allowed = f"turns it by {most:.9g} deg at most" if most else "lets it go straight on"
-        return (
-            f"light is turned by {turned:.9g} deg at '{self.owner}', but a refraction {between} "
-            f"{allowed}; move the points, give other media, or let it be reflected there "
-            f"(events with R for T, or a specular vertex)"
-        )
-
-
 def deviation(points: Any) -> float:
-    """Return by how many degrees light is turned at the middle of three points.
-
-    >>> round(deviation([0, 0, 0, 0, 0, 1, 0, 5, 1]), 9)
-    90.0
-    """
+    """Return by how many degrees light is turned at the middle of three points."""
     half, across = INCIDENCE.made_for(of_module(np))(*map(np.float64, points))
     return 2.0 * math.degrees(math.atan2(half, across))
 
@@ -335,110 +275,59 @@ _STRAIGHT = 1e-7
 """A bisector shorter than this is known to fewer digits than normals are checked to."""
 
 
-def normal_faults(
-    chains: Floats | None, normals: Any, count: int, sides: Floats | None = None
-) -> list[str]:
-    """Return which normals (..., count, 3) are off those of their vertices, and by how much.
+def off_normals(
+    chains: Floats, normals: npt.NDArray[Any], sides: Floats
+) -> tuple[npt.NDArray[np.bool_], str]:
+    """Return which chains (...) have normals (..., m, 3) off those of their vertices, in words too.
 
     A reflection's is along k_out - k_in, a refraction's along n2 k_out - n1 k_in; between equal
-    media any will do.
-
-    >>> chain = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    >>> normal_faults(chain, [[0.0, -2.0, -2.0]], 1)
-    []
-    >>> normal_faults(chain, [[0.0, 0.0, 0.0]], 1)
-    ['the normal of vertex 1 has no length; give one with a direction of its own']
+    media any will do. `sides` (..., m, 2) are n1 and n2.
     """
-    try:
-        argument = as_argument("the array of normals", normals)
-    except ValueFault as fault:
-        return list(fault.faults)
-    if argument.dtype.kind not in "iuf":
-        return [f"normals must be real numbers, not {shown(normals)}"]
-    if argument.shape[-2:] != (count, 3):
-        return [f"normals must have shape (..., {count}, 3), not {argument.shape}"]
-    tolerance = max(_TOLERANCE, 2.0 * rounding_of(argument))
-    argument = as_doubles(argument)
-    if chains is None:
-        return _own_faults(argument.reshape(-1, count, 3), argument.shape[:-2])
-    sides = np.ones((count, 2)) if sides is None else sides
-    shapes = {
-        "vertices": chains.shape[:-2],
-        "normals": argument.shape[:-2],
-        "materials": sides.shape[:-2],
-    }
-    try:
-        batch = check_broadcast(shapes)
-    except ShapeError as fault:
-        return list(fault.faults)
-    chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
-    argument = np.broadcast_to(argument, (*batch, count, 3)).reshape(-1, count, 3)
-    sides = np.broadcast_to(sides, (*batch, count, 2)).reshape(-1, count, 2)
-    doubted = [
-        piece
-        for piece in pieces_of(len(argument))
-        if not _surely_along(chains[piece], argument[piece], sides[piece])
-    ]
-    if not doubted:
-        return []
-    whole = chains, argument, sides
-    return _own_faults(argument, batch) or _off_faults(whole, batch, doubted, tolerance)
-
-
-def are_off(chains: Floats, normals: Any, sides: Floats) -> npt.NDArray[np.bool_]:
-    """Return which chains have a normal that is not along that of its vertex. Shape (...)."""
-    count = normals.shape[-2]
+    count = chains.shape[-2] - 2
+    if normals.dtype.kind not in "iuf":
+        raise ValueFault(f"normals must be real numbers, not {shown(normals)}")
+    if normals.shape[-2:] != (count, 3):
+        raise ValueFault(f"normals must have shape (..., {count}, 3), not {normals.shape}")
     tolerance = max(_TOLERANCE, 2.0 * rounding_of(normals))
-    batch = np.broadcast_shapes(chains.shape[:-2], normals.shape[:-2], sides.shape[:-2])
-    ends = (count + 2, 3), (count, 3), (count, 2)
-    several = (chains, as_doubles(normals), sides)
+    normals = as_doubles(normals)
+    _refuse_no_normals(normals)
+    several = {"vertices": chains, "normals": normals, "materials": sides}
+    batch = check_broadcast({name: each.shape[:-2] for name, each in several.items()})
     whole = [
-        np.broadcast_to(each, (*batch, *end)).reshape(-1, *end)
-        for each, end in zip(several, ends, strict=True)
+        np.broadcast_to(each, (*batch, *each.shape[-2:])).reshape(-1, *each.shape[-2:])
+        for each in several.values()
     ]
-    with np.errstate(all="ignore"):
-        off = [
-            np.any(_off(*(e[piece] for e in whole)) > tolerance, -1)
-            for piece in pieces_of(len(whole[0]))
-        ]
-    return np.concatenate(off).reshape(batch)
-
-
-def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
-    """Return which normals are none, whatever the chain."""
-    results = []
-    for bad, problem in (
-        (~np.isfinite(normals).all(axis=-1), "is not finite; give numbers"),
-        (~normals.any(axis=-1), "has no length; give one with a direction of its own"),
-    ):
-        if bad.any():
-            chain, place = (int(index[0]) for index in np.nonzero(bad))
-            results.append(f"{_normal_of(place, chain, batch)} {problem}")
-    return results
-
-
-def _off_faults(
-    whole: tuple[Floats, Floats, Floats],
-    batch: tuple[int, ...],
-    doubted: list[slice],
-    tolerance: float,
-) -> list[str]:
-    """Return the vertex whose normal is furthest off what it must be, if any is too far."""
-    worst, where, wanted = tolerance, "", ""
-    for piece in doubted:
+    far, worst, sentence = np.zeros(len(whole[0]), bool), tolerance, ""
+    for piece in pieces_of(len(far)):
         part = [each[piece] for each in whole]
-        off = _off(*part)
+        if _surely_along(*part):
+            continue
+        with np.errstate(all="ignore"):
+            off = np.nan_to_num(_off(*part))  # Points that are not finite are told elsewhere.
+        far[piece] = np.any(off > tolerance, axis=-1)
         chain, place = map(int, np.unravel_index(np.argmax(off), off.shape))
         if off[chain, place] > worst:
             worst = float(off[chain, place])
-            where = _normal_of(place, piece.start + chain, batch)
             n1, n2 = part[2][chain, place]
             wanted = "the bisector of its legs" if n1 == n2 else "the one that refracts light so"
-    sentence = (
-        f"{where} is off {wanted} by {np.degrees(worst):.3g} deg; it must be "
-        f"along it to within {tolerance:.2g} rad, or be left out"
-    )
-    return [sentence] if where else []
+            sentence = (
+                f"{_normal_of(place, piece.start + chain, batch)} is off {wanted} by "
+                f"{np.degrees(worst):.3g} deg; it must be along it to within {tolerance:.2g} rad, "
+                f"or be left out"
+            )
+    return far.reshape(batch), sentence
+
+
+def _refuse_no_normals(normals: Floats) -> None:
+    """Refuse what is no direction, whatever the chain."""
+    several = normals.reshape(-1, *normals.shape[-2:])
+    for bad, problem in (
+        (~np.isfinite(several).all(axis=-1), "is not finite; give numbers"),
+        (~several.any(axis=-1), "has no length; give one with a direction of its own"),
+    ):
+        if bad.any():
+            chain, place = (int(index[0]) for index in np.nonzero(bad))
+            raise ValueFault(f"{_normal_of(place, chain, normals.shape[:-2])} {problem}")
 
 
 def _normal_of(place: int, chain: int, batch: tuple[int, ...]) -> str:

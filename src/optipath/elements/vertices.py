@@ -22,7 +22,6 @@ from optipath.elements.vertex_place import (
     Events,
     EventsDomain,
     PlaceInChain,
-    SnellAtVertex,
     VertexFrame,
     same_points,
 )
@@ -77,7 +76,7 @@ class ChainVertex(MediaOfBoundary, Element):
         super().__post_init__()
         if not is_checked_later():
             name = type(self).__name__
-            known = [law for law in self.agreements(name) if not law.is_open]
+            known = (law for law in self.agreements(name) if not law.is_open)
             refuse(self._place_faults(name) or first_faults(known))
 
     @property
@@ -142,6 +141,14 @@ class ChainVertex(MediaOfBoundary, Element):
         if frames:
             results.append(f"'{owner}' has its frames from its vertices; give it no other frames")
         return [*results, *self._place_faults(owner)]
+
+    def _goes_so(self, owner: str, *event_and_media: Any) -> tuple[Agreement, ...]:
+        """Return that light can go from point to point by an event, n in front, n and k behind."""
+        of_angles = isinstance(self.vertices, VerticesByAngles)
+        if self.bad == "mask" or self.front is FOLLOWS or of_angles:
+            return ()
+        points = self.in_chain.points_around().arguments
+        return (EventFits((*map(operand_of, event_and_media), *points), owner),)
 
     def _place_faults(self, owner: str) -> list[str]:
         result = self.in_chain.faults(owner)
@@ -250,24 +257,17 @@ class Vertex(ChainVertex, kind="vertex"):
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:
         """Return that light can go so from point to point, unless that is masked."""
-        of_angles = isinstance(self.vertices, VerticesByAngles)
-        if self.bad == "mask" or self.front is FOLLOWS or of_angles:
-            return ()
-        arguments = (
-            *map(operand_of, self._event_and_media),
-            *self.in_chain.points_around().arguments,
-        )
-        return (EventFits(arguments, owner),)
+        return self._goes_so(owner, *self._event_and_media)
 
     @property
     def event_here(self) -> Operand:
         """What happens at this vertex."""
-        return self._event(self.place - 1)
+        return self._event(self.in_chain.at - 1)
 
     @property
     def _events(self) -> tuple[Operand, ...]:
         """What happens at each vertex up to this one."""
-        return tuple(self._event(place) for place in range(self.place))
+        return tuple(self._event(place) for place in range(self.in_chain.at))
 
     def _event(self, place: int) -> Operand:
         return Operand(self.events, place, (self.in_chain.count,))
@@ -413,11 +413,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:
         """Return that its points are those of a refraction."""
-        of_angles = isinstance(self.vertices, VerticesByAngles)
-        if self.front is FOLLOWS or of_angles or self.bad == "mask":
-            return ()
-        media = operand_of(self.front), operand_of(self._behind)
-        return (SnellAtVertex((*media, *self.in_chain.points_around().arguments), owner),)
+        return self._goes_so(owner, Event.REFRACTS, self.front, self._behind, 0.0)
 
     @property
     def _behind(self) -> Any:

@@ -285,21 +285,21 @@ PLAIN_AMPLITUDES = Kernel(
 )
 
 _LOSSLESS = _if_any_is_zero("1", 0, 1)
-ABSORPTION_ALONG = Kernel(
-    "absorption along the way", SCALE, medium.absorption_along, known=_LOSSLESS
-)
+ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.Absorption(), known=_LOSSLESS)
 THIRD_OF_ABSORPTION = Kernel(
-    "a third of absorption", SCALE, medium.third_of_absorption, known=_LOSSLESS
+    "a third of absorption", SCALE, medium.Absorption(1.0 / 3.0), known=_LOSSLESS
 )
 _UNTURNED = _if_any_is_zero("10", 0, 1)
-ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along, known=_UNTURNED)
+ROTATION_ALONG = Kernel(
+    "rotation along the way", ROTATION, medium.Along(filters.turn_back), known=_UNTURNED
+)
 DEXTROROTATION_ALONG = Kernel(
-    "dextrorotation along the way", ROTATION, medium.dextrorotation_along, known=_UNTURNED
+    "dextrorotation along the way", ROTATION, medium.Along(filters.turn), known=_UNTURNED
 )
 RETARDANCE_ALONG = Kernel(
     "retardance along the way",
     BLOCK,
-    medium.retardance_along,
+    medium.Along(filters.retarder),
     known=(("110..",), *_if_any_is_zero("11010", 0, 1)),
 )
 FARADAY_ROTATION = Kernel(
@@ -316,12 +316,12 @@ POLARIZING_TRANSMISSION = Kernel(
     "polarising transmission", BLOCK, filters.polarizing_transmission, known=_NO_S
 )
 ABSORPTION_WITH_DICHROISM = Kernel(
-    "absorption beside dichroism", SCALE, medium.absorption_with_dichroism, known=(("1", 3),)
+    "absorption beside dichroism", SCALE, medium.Absorption(dichroic=True), known=(("1", 3),)
 )
 THIRD_WITH_DICHROISM = Kernel(
     "a third of absorption beside dichroism",
     SCALE,
-    medium.third_of_absorption_with_dichroism,
+    medium.Absorption(1.0 / 3.0, dichroic=True),
     known=(("1", 3),),
 )
 DICHROISM_ALONG = Kernel(

@@ -17,10 +17,11 @@ sec. 4.5 and 10.3), as exp - 1 in place of exp, so that small products keep thei
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.exponential import scaled_hyperbolic
-from optipath.kernels.filters import retarder, turn, turn_back
+from optipath.kernels.filters import retarder, turn
 from optipath.kernels.primitives import products
 from optipath.kernels.trigonometry import cosine, sine
 from optipath.kernels.vectors import common_size, cross, dot, hypotenuse, norm, plus, times
@@ -28,7 +29,7 @@ from optipath.kernels.vectors import common_size, cross, dot, hypotenuse, norm, 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from optipath.kernels.primitives import KernelFunction, Primitives
+    from optipath.kernels.primitives import Factory, KernelFunction, Primitives
     from optipath.kernels.vectors import Vector
 
 
@@ -36,19 +37,30 @@ _LEAST = 2.0**-53
 """What a number times this underflows to 0 is close to where digits get lost."""
 
 
-def absorption_along(xp: Primitives) -> KernelFunction:
-    """Make ``(absorption, length) -> (t,)``: Beer-Lambert, or 0 where digits would underflow."""
-    return _attenuation(xp, 1.0)
+@dataclass(frozen=True)
+class Absorption:
+    """Makes ``(absorption, [dichroism, circular dichroism,] length) -> (t,)``, by Beer and Lambert.
 
+    Over a share of the length, and 0 where digits would underflow; beside dichroism, it is what the
+    least absorbed of all states keeps (see `_excess` for its slopes).
+    """
 
-def third_of_absorption(xp: Primitives) -> KernelFunction:
-    """Make ``(absorption, length) -> (t,)``, the cube root of the same."""
-    return _attenuation(xp, 1.0 / 3.0)
+    share: float = 1.0
+    dichroic: bool = False
 
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Make the kernel."""
+        left, excess, where, fixed, share = _left(xp), _excess(xp), xp.where, xp.fixed, self.share
 
-def _attenuation(xp: Primitives, share: float) -> KernelFunction:
-    left = _left(xp)
-    return lambda absorption, length: (left(share * (absorption * length)),)
+        def attenuate(absorption: Any, length: Any) -> tuple[Any]:
+            return (left(share * (absorption * length)),)
+
+        def attenuate_least(absorption: Any, linear: Any, circular: Any, length: Any) -> tuple[Any]:
+            least = absorption - excess(linear, circular)
+            # A rounding below 0 is taken away from itself, so that its slope stays.
+            return attenuate(least - where(least < 0.0, fixed(least), 0.0), length)
+
+        return attenuate_least if self.dichroic else attenuate
 
 
 def _left(xp: Primitives) -> Callable[[Any], Any]:
@@ -62,30 +74,6 @@ def _left(xp: Primitives) -> Callable[[Any], Any]:
     return left
 
 
-def absorption_with_dichroism(xp: Primitives) -> KernelFunction:
-    """Make ``(absorption, dichroism, circular dichroism, length) -> (t,)``.
-
-    It is what the least absorbed of all states keeps; see `_excess` for its slopes.
-    """
-    return _least_attenuation(xp, 1.0)
-
-
-def third_of_absorption_with_dichroism(xp: Primitives) -> KernelFunction:
-    """Make ``(absorption, dichroism, circular dichroism, length) -> (t,)``, the cube root."""
-    return _least_attenuation(xp, 1.0 / 3.0)
-
-
-def _least_attenuation(xp: Primitives, share: float) -> KernelFunction:
-    attenuate, excess, where, fixed = _attenuation(xp, share), _excess(xp), xp.where, xp.fixed
-
-    def attenuate_least(absorption: Any, linear: Any, circular: Any, length: Any) -> tuple[Any]:
-        least = absorption - excess(linear, circular)
-        # A rounding below 0 is taken away from itself, so that its slope stays.
-        return attenuate(least - where(least < 0.0, fixed(least), 0.0), length)
-
-    return attenuate_least
-
-
 def _excess(xp: Primitives) -> Callable[..., Any]:
     """Make ``(dichroism, ...) ->`` by how much the mean of all states is absorbed more per metre.
 
@@ -96,22 +84,16 @@ def _excess(xp: Primitives) -> Callable[..., Any]:
     return lambda *dichroism: fixed(size(*dichroism))
 
 
-def rotation_along(xp: Primitives) -> KernelFunction:
-    """Make ``(rotation, length) -> (cos 2a, -sin 2a)``, the light turned by a."""
-    turned_back = turn_back(xp)
-    return lambda rotation, length: turned_back(rotation * length)
+@dataclass(frozen=True)
+class Along:
+    """Makes ``(rate, length) -> numbers`` of a kernel that takes their product."""
 
+    factory: Factory
 
-def dextrorotation_along(xp: Primitives) -> KernelFunction:
-    """Make ``(dextrorotation, length) -> (cos 2a, sin 2a)``, the light turned by -a."""
-    turned = turn(xp)
-    return lambda dextrorotation, length: turned(dextrorotation * length)
-
-
-def retardance_along(xp: Primitives) -> KernelFunction:
-    """Make ``(retardance, length) -> (Fs, Fp, B, C, S)``, the fast axis along x."""
-    retard = retarder(xp)
-    return lambda retardance, length: retard(retardance * length)
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Make the kernel."""
+        kernel = self.factory(xp)
+        return lambda rate, length: kernel(rate * length)
 
 
 def dichroism_along(xp: Primitives) -> KernelFunction:

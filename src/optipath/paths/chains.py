@@ -9,7 +9,7 @@ import numpy as np
 
 from optipath.elements.ends import Detector, Source
 from optipath.elements.vertex_chain import of_chain, pieces_of
-from optipath.elements.vertex_place import are_off, deviation, normal_faults
+from optipath.elements.vertex_place import deviation, off_normals
 from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
 from optipath.errors import ValueFault, shown
 from optipath.kernels.catalog import REFRACTION
@@ -327,11 +327,10 @@ def normals_checked(
     if ended is not None and normals.shape[-2:] == (chains.count, 3):
         points = _turned_back(points, ended)
         normals = np.where(ended[..., np.newaxis], 1.0, normals)
-    if faults := normal_faults(points if bad == "refuse" else None, normals, chains.count, sides):
-        raise ValueFault(*faults)
-    if bad == "mask" and np.any(off := are_off(points, normals, sides)):
-        return masked(chains, off)
-    return chains
+    off, sentence = off_normals(points, normals, sides)
+    if sentence and bad == "refuse":
+        raise ValueFault(sentence)
+    return masked(chains, off) if sentence else chains
 
 
 def _sides(chains: Histories, outside: Any) -> Floats | None:

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.elements.fresnel import fresnel_reflection, index_argument
+from optipath.elements.fresnel import fresnel_reflection
 from optipath.errors import OptipathError, shown
+from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import DASHES, FAINT, INK, LINES
@@ -137,7 +138,7 @@ def _medium(name: str, argument: Any) -> Material:
         return argument
     if _is_name(argument):
         return Material.named(argument)
-    number = np.asarray(index_argument(name, argument))
+    number = INDEX.check(name, argument)
     return Material(number.real.copy(), number.imag.copy())
 
 

@@ -10,7 +10,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.fresnel.boundary import InhomogeneousBoundary, inhomogeneous_boundary
+from optipath.kernels.fresnel.boundary import (
+    Across,
+    InhomogeneousBoundary,
+    boundary_from_behind,
+    inhomogeneous_boundary,
+)
 from optipath.kernels.fresnel.stable import Slant, in_plane, is_there, sum_squared, through_and_back
 from optipath.kernels.vectors import hypotenuse
 
@@ -20,40 +25,21 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import KernelFunction, Primitives
 
 
-def inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, k1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
+def _reflected(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    """Make ``InhomogeneousBoundary -> (Fs, Fp, B, C, S)``.
 
     With g1 and g2 along the normal, y along the face and D = m2^2 - m1^2: r_s = -D /
     (g1 + g2)^2 and r_p / r_s = (y^2 - g1 g2) / (y^2 + g1 g2), as in `stable_reflection`, where
     g1 is real. From behind, all five numbers are the same.
     """
-    boundary, where = inhomogeneous_boundary(xp), xp.where
+    where = xp.where
 
-    def reflect(*argument: Any) -> tuple[Any, ...]:
-        at = boundary(*argument)
+    def reflect(at: InhomogeneousBoundary) -> tuple[Any, ...]:
         _, entering, small = _powers(where, at)
         Fs = where(entering < 0.6, 1.0 - entering, small)
         return in_plane(where, Fs, slant_of(where, at), at.c)
 
     return reflect
-
-
-def inhomogeneous_transmission(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``.
-
-    It is the power that is carried behind over that which arrives, of the arriving wave alone:
-    Ts = 4 |g1|^2 Re g2 / (Re g1 |g1 + g2|^2), Tp / Ts = (|g2|^2 + y^2) |m1|^4 /
-    ((|g1|^2 + y^2) |y^2 + g1 g2|^2), and t_s / t_p = (y^2 + g1 g2) / (m1 m2) (S. J. Byrnes,
-    arXiv:1603.02720, where Tp = |t_p|^2 Re(m2 conj(cos2)) / Re(m1 conj(cos1))).
-    """
-    boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *argument: transmitted(boundary(*argument))
-
-
-def transmission_from_behind(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` for light from behind."""
-    boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *argument: transmitted(boundary(*argument).from_behind(xp.where))
 
 
 def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any, Any]:
@@ -72,6 +58,13 @@ def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
 
 
 def _transmitted(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    """Make ``InhomogeneousBoundary -> (Ts, Tp, B, C, S)``.
+
+    It is the power that is carried behind over that which arrives, of the arriving wave alone:
+    Ts = 4 |g1|^2 Re g2 / (Re g1 |g1 + g2|^2), Tp / Ts = (|g2|^2 + y^2) |m1|^4 /
+    ((|g1|^2 + y^2) |y^2 + g1 g2|^2), and t_s / t_p = (y^2 + g1 g2) / (m1 m2) (S. J. Byrnes,
+    arXiv:1603.02720, where Tp = |t_p|^2 Re(m2 conj(cos2)) / Re(m1 conj(cos1))).
+    """
     where, sqrt, length = xp.where, xp.sqrt, hypotenuse(xp)
 
     def transmitted(at: InhomogeneousBoundary) -> tuple[Any, ...]:
@@ -104,6 +97,12 @@ def _transmitted(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any,
         return Ts, Tp, B, C, where(absorbs, S, 0.0) + 0.0
 
     return transmitted
+
+
+inhomogeneous_reflection = Across(inhomogeneous_boundary, _reflected)
+inhomogeneous_transmission = Across(inhomogeneous_boundary, _transmitted)
+transmission_from_behind = Across(boundary_from_behind, _transmitted)
+"""Kernels of ``(n1, k1, n, k, [n0,] cos, sin)``."""
 
 
 def phases_through(

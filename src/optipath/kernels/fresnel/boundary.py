@@ -8,6 +8,7 @@ Optics, sec. 14.2). So it is at every face that is parallel to the first.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import wraps
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels.vectors import brought_near_one, complex_root, from_within, hypotenuse
@@ -263,6 +264,12 @@ def inhomogeneous_boundary(xp: Primitives) -> Callable[..., InhomogeneousBoundar
     return boundary
 
 
+def boundary_from_behind(xp: Primitives) -> Callable[..., InhomogeneousBoundary]:
+    """Make the same of what `inhomogeneous_boundary` takes, as light from behind meets it."""
+    boundary, where = inhomogeneous_boundary(xp), xp.where
+    return lambda *argument: boundary(*argument).from_behind(where)
+
+
 def inhomogeneous_wave(xp: Primitives) -> KernelFunction:
     """Make ``(n1, k1, cos, sin) -> (c, e, s)``, for the real angle in an absorbing medium.
 
@@ -369,6 +376,19 @@ def effective_index(xp: Primitives) -> KernelFunction:
         return divided * length(at.n1 * at.s, at.a), divided * at.b
 
     return index
+
+
+@dataclass(frozen=True)
+class Across:
+    """Makes a kernel of a boundary, and of what becomes of light there; plans pickle it."""
+
+    boundary: Callable[[Primitives], Callable[..., Any]]
+    numbers: Callable[[Primitives], Callable[[Any], tuple[Any, ...]]]
+
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Make the kernel, which takes what the boundary is made of."""
+        boundary, numbers = self.boundary(xp), self.numbers(xp)
+        return wraps(boundary)(lambda *argument: numbers(boundary(*argument)))
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels.fresnel.boundary import (
+    Across,
     Boundary,
     absorbing_boundary,
     denser_boundary,
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.kernels.fresnel.boundary import InhomogeneousBoundary
-    from optipath.kernels.primitives import KernelFunction, Primitives
+    from optipath.kernels.primitives import Primitives
 
 
 _LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120
@@ -24,8 +25,8 @@ _LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120
 media that differ by less than the third, with an inverse in float32, are equal."""
 
 
-def stable_reflection(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
+def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
+    """Make ``Boundary -> (Fs, Fp, B, C, S)``.
 
     With p = n1 cos, z = (n1 sin)^2, D = m2^2 - n1^2 and g = a + ib = sqrt(m2^2 - z):
     r_s = -D / (p + g)^2 and r_p / r_s = (z - p g) / (z + p g), which are the
@@ -33,34 +34,26 @@ def stable_reflection(xp: Primitives) -> KernelFunction:
     of differences between nearly equal numbers. Total reflection gives
     Fs = Fp = 1 and B = 0 exactly.
     """
-    boundary, reflected = absorbing_boundary(xp), _reflected(xp)
-    return lambda n1, n, k, *angle: reflected(boundary(n1, n, k, *angle))
+    where, first = xp.where, _first(xp)
+    return lambda at: in_plane(where, first(at)[0], slant(at), at.c)
 
 
-def lossless_reflection(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: cheaper, for k = 0."""
-    boundary, reflected = lossless_boundary(xp), _reflected(xp)
-    return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
+stable_reflection = Across(absorbing_boundary, _reflected)
+lossless_reflection = Across(lossless_boundary, _reflected)
+denser_reflection = Across(denser_boundary, _reflected)
+"""Cheaper ones for k = 0, and for n >= n1 besides."""
 
 
-def denser_reflection(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: the same for n >= n1."""
-    boundary, reflected = denser_boundary(xp), _reflected(xp)
-    return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
-
-
-def stable_transmission(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` of the power let through.
+def _let_through(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
+    """Make ``Boundary -> (Ts, Tp, B, C, S)`` of the power let through.
 
     Ts = 4 p a / |p + g|^2, Tp = Ts n1^2 (|g|^2 + z) / |z + p g|^2, and t_s / t_p =
     (z + p g) / (n1 m2). In a medium that absorbs, C and S have the phase between the
     fields just behind the boundary.
     """
-    boundary, transmitted = absorbing_boundary(xp), _transmitted(xp)
-    sqrt, where, length = xp.sqrt, xp.where, hypotenuse(xp)
+    sqrt, where, length, transmitted = xp.sqrt, xp.where, hypotenuse(xp), _transmitted(xp)
 
-    def transmit(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
-        at = boundary(n1, n, k, *angle)
+    def transmit(at: Boundary) -> tuple[Any, ...]:
         powers, (re, im), behind, q = transmitted(at)
         size = length(at.n, at.k)
         n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
@@ -77,17 +70,18 @@ def stable_transmission(xp: Primitives) -> KernelFunction:
     return transmit
 
 
-def lossless_transmission(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``: cheaper, for k = 0."""
-    boundary, transmitted = lossless_boundary(xp), _transmitted(xp)
-    where = xp.where
+def _let_through_lossless(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
+    where, transmitted = xp.where, _transmitted(xp)
 
-    def transmit(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
-        at = boundary(n1, n, *angle)
+    def transmit(at: Boundary) -> tuple[Any, ...]:
         powers, (re, _), _, _ = transmitted(at)
         return *powers, _lossless(where, powers[0], at, re), 0.0
 
     return transmit
+
+
+stable_transmission = Across(absorbing_boundary, _let_through)
+lossless_transmission = Across(lossless_boundary, _let_through_lossless)
 
 
 def _lossless(where: Callable[..., Any], Ts: Any, at: Boundary, re: Any) -> Any:
@@ -159,11 +153,6 @@ def is_there(where: Callable[..., Any], q: Any) -> tuple[Any, Any]:
     # where the limits are known; at 90 degrees they are exact.
     there = (_LOST * q > 0.0) & (q > _LEAST)
     return there, where(there, q, 1.0)
-
-
-def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
-    where, first = xp.where, _first(xp)
-    return lambda at: in_plane(where, first(at)[0], slant(at), at.c)
 
 
 def in_plane(

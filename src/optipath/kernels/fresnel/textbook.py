@@ -5,7 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.fresnel.absorbing import phases_through, slant_of
-from optipath.kernels.fresnel.boundary import inhomogeneous_boundary
+from optipath.kernels.fresnel.boundary import (
+    Across,
+    boundary_from_behind,
+    inhomogeneous_boundary,
+)
 from optipath.kernels.fresnel.stable import sum_squared
 from optipath.kernels.vectors import complex_root, hypotenuse
 
@@ -194,40 +198,29 @@ def power(value: Complex) -> Any:
     return re * re + im * im
 
 
-def amplitude_inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, k1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
+def _reflected_at(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    """Make (Fs, Fp, B, C, S) of a boundary.
 
     r_s = (g1 - g2) / (g1 + g2) and r_p = (m2^2 g1 - m1^2 g2) / (m2^2 g1 + m1^2 g2).
     """
-    boundary = inhomogeneous_boundary(xp)
 
-    def reflect(*argument: Any) -> tuple[Any, ...]:
-        at = boundary(*argument)
+    def reflect(at: InhomogeneousBoundary) -> tuple[Any, ...]:
         g1, g2, first, second = _absorbing_waves(at)
-        rs = ratio(xp, _less(g1, g2), _plus(g1, g2))
-        rp = ratio(xp, _less(first, second), _plus(first, second))
+        rs, rp = (
+            ratio(xp, (a - c, b - d), (a + c, b + d))
+            for (a, b), (c, d) in ((g1, g2), (first, second))
+        )
         return _reflected(rs, rp)
 
     return reflect
 
 
-def amplitude_inhomogeneous_transmission(xp: Primitives) -> KernelFunction:
-    """Make the kernel ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``.
+def _transmitted_at(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    """Make (Ts, Tp, B, C, S) of a boundary.
 
     t_s = 2 g1 / (g1 + g2), t_p = 2 m1 m2 g1 / (m2^2 g1 + m1^2 g2), T_s = |t_s|^2 Re g2 / Re g1,
     T_p = |t_p|^2 Re(m2 conj(g2 / m2)) / Re(m1 conj(g1 / m1)).
     """
-    boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *argument: transmitted(boundary(*argument))
-
-
-def amplitude_transmission_from_behind(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` for light from behind."""
-    boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
-    return lambda *argument: transmitted(boundary(*argument).from_behind(xp.where))
-
-
-def _transmitted(xp: Primitives) -> Any:
     where, maximum = xp.where, xp.maximum
 
     def transmitted(at: InhomogeneousBoundary) -> tuple[Any, ...]:
@@ -247,6 +240,12 @@ def _transmitted(xp: Primitives) -> Any:
     return transmitted
 
 
+amplitude_inhomogeneous_reflection = Across(inhomogeneous_boundary, _reflected_at)
+amplitude_inhomogeneous_transmission = Across(inhomogeneous_boundary, _transmitted_at)
+amplitude_transmission_from_behind = Across(boundary_from_behind, _transmitted_at)
+"""Kernels of ``(n1, k1, n, k, [n0,] cos, sin)``."""
+
+
 def _absorbing_waves(at: InhomogeneousBoundary) -> tuple[Complex, Complex, Complex, Complex]:
     """Return g1, g2, m2^2 g1 and m1^2 g2."""
     g1, g2 = (at.n1 * at.c, at.n1 * at.e), (at.a, at.b)
@@ -258,28 +257,26 @@ def _plus(first: Complex, second: Complex) -> Complex:
     return first[0] + second[0], first[1] + second[1]
 
 
-def _less(first: Complex, second: Complex) -> Complex:
-    return first[0] - second[0], first[1] - second[1]
-
-
-def single_amplitudes(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, k1, n, k, cos, sin) -> (Re, Im of r_s, of r_p, of t_s, of t_p)``.
+def _amplitudes_at(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    """Make (Re, Im of r_s, of r_p, of t_s, of t_p) of a boundary.
 
     With g1 and g2 along the normal, y along the face and g2 - g1 = (m2^2 - m1^2) / (g1 + g2):
     r_s = (g1 - g2) / (g1 + g2), t_s = 1 + r_s, r_p / r_s = (y^2 - g1 g2) / (y^2 + g1 g2) and
     t_p / t_s = m1 m2 / (y^2 + g1 g2), as in `inhomogeneous_reflection` and
     `inhomogeneous_transmission`.
     """
-    boundary, of_s, of_p = inhomogeneous_boundary(xp), _along_s(xp), _along_p(xp)
+    of_s, of_p = _along_s(xp), _along_p(xp)
 
-    def amplitudes(*argument: Any) -> tuple[Any, ...]:
-        at = boundary(*argument)
+    def amplitudes(at: InhomogeneousBoundary) -> tuple[Any, ...]:
         rs, ts = of_s(at)
         rp, tp = of_p(at, rs, ts)
         # Adding 0 turns -0 into 0.
         return tuple(part + 0.0 for number in (rs, rp, ts, tp) for part in number)
 
     return amplitudes
+
+
+single_amplitudes = Across(inhomogeneous_boundary, _amplitudes_at)
 
 
 def _along_s(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Complex, Complex]]:
