@@ -27,10 +27,10 @@ from optipath.elements.polarizers import Depolarizer as Depolarizer
 from optipath.elements.polarizers import Diattenuator as Diattenuator
 from optipath.elements.polarizers import Polarizer as Polarizer
 from optipath.elements.retarders import EllipticalRetarder as EllipticalRetarder
+from optipath.elements.retarders import FaradayRotator as FaradayRotator
 from optipath.elements.retarders import Retarder as Retarder
+from optipath.elements.retarders import Rotator as Rotator
 from optipath.elements.retarders import Waveplate as Waveplate
-from optipath.elements.rotators import FaradayRotator as FaradayRotator
-from optipath.elements.rotators import Rotator as Rotator
 from optipath.elements.splitters import BeamSplitter as BeamSplitter
 from optipath.elements.splitters import Combiner as Combiner
 from optipath.elements.splitters import PolarizingBeamSplitter as PolarizingBeamSplitter

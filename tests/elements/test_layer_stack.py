@@ -103,7 +103,7 @@ def test_media_that_make_no_stack_are_refused(indices, message):
 
 
 def test_substrates_that_absorb_and_jones_columns_are_refused():
-    with pytest.raises(op.PathError, match=r"stack\.indices\[1\] is complex.*by port 'back'"):
+    with pytest.raises(op.PathError, match=r"stack\.indices\[-1\] is complex.*by port 'back'"):
         path_of(op.LayerStack([1.0, 0.6 + 2j], 0.5), "back", "reflected").check()
     with pytest.raises(op.ComposerError, match=r"stack\.reflected.*may depolarise"):
         op.Composer(composing="jones").compose(path_of(op.LayerStack([1.0, 1.5, 1.0], 0.5)))

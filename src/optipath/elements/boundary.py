@@ -65,7 +65,7 @@ class BoundaryElement(MediaOfBoundary, FourPort):
     """
 
     may_follow: ClassVar[tuple[str, ...]] = ("outside", "incidence")
-    lit_behind = LIT_BEHIND
+    lit_behind: ClassVar[Any] = LIT_BEHIND
 
     @property
     def measured(self) -> tuple[Any, Any]:
@@ -85,12 +85,12 @@ class BoundaryElement(MediaOfBoundary, FourPort):
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         if faults := x_faults(owner, frames):
             return faults
-        both = {"in", "reflected"} <= frames.keys()
-        if both and not Operand(self.incidence).known:
+        face: Any = self
+        if {"in", "reflected"} <= frames.keys() and not Operand(face.incidence).known:
             result = np.ravel(incidence_between(frames["in"], frames["reflected"]))[0]
             faults.append(
                 f"the frames of '{owner}' meet at an incidence of {np.degrees(result):.9g} deg; "
-                f"give that, not the parameter '{self.incidence.name}'"
+                f"give that, not the parameter '{face.incidence.name}'"
             )
         laws = [law for law in world_angles(owner, self, frames) if not law.is_open]
         return faults + (first_faults(laws) if laws and not self.faults(owner) else [])
@@ -129,6 +129,10 @@ def _known_angles(element: Any) -> tuple[Any, Any] | None:
         return None  # Named with all other shapes.
     return angles_of(np, *numbers)
 
+
+_BOUNCES = ("in", "reflected"), ("back", "transmitted")
+_PASSES = ("in", "transmitted"), ("back", "reflected")
+"""By which ports light goes that is turned back, or is let through."""
 
 _ROUNDING = 1e-7
 """How far apart two angles may be, in radians."""
@@ -192,7 +196,7 @@ class WorldAngle(Agreement):
 
     @property
     def _is_passing(self) -> bool:
-        return (self.enters == "in") == (self.leaves == "transmitted")
+        return (self.enters, self.leaves) in _PASSES
 
     def _expected(self, front: Any, behind: Any) -> Any:
         if self._is_passing:
@@ -205,22 +209,16 @@ def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Itera
     argument = operands_of(element)
     if any(operand.value is FOLLOWS for operand in argument):
         return  # What it takes over is looked at.
-    for enters, leaves in (
-        ("in", "reflected"),
-        ("back", "transmitted"),
-        ("in", "transmitted"),
-        ("back", "reflected"),
-    ):
+    for enters, leaves in (*_BOUNCES, *_PASSES):
         if {enters, leaves} <= frames.keys():
             first, second = frames[enters], frames[leaves]
-            bounces = (enters, leaves) in (("in", "reflected"), ("back", "transmitted"))
+            bounces, needed = (enters, leaves) in _BOUNCES, argument
             angle = (incidence_between if bounces else angle_between)(first, second)
-            needed = argument
-            if (enters, leaves) == ("in", "reflected"):
-                # What is behind is of no account in front.
-                needed = (*argument[:3], *map(operand_of, (1.0, 0.0)), *argument[5:])
-                if len(argument) == 5:
-                    needed = (argument[0], *map(operand_of, (1.0, 0.0, 1.0, 0.0)))
+            if bounces and enters == "in":
+                # What is behind is of no account in front, nor are both where one measures there.
+                clear = [operand_of(number) for number in (1.0, 0.0)]
+                front = argument[1:3] if len(argument) > 5 else clear
+                needed = (argument[0], *front, *clear, *argument[5:])
             yield WorldAngle(
                 (operand_of(angle), *needed), owner, enters, leaves, first.rounding_to(second)
             )
@@ -238,12 +236,7 @@ def operands_of(element: Any) -> tuple[Operand, ...]:
 def angles_of(
     xp: Any, incidence: Any, n1: Any, k1: Any, n: Any, k: Any, *before: Any
 ) -> tuple[Any, Any]:
-    """Return the angles of light in front of a boundary and behind it, in radians.
-
-    >>> front, behind = angles_of(np, np.radians(40.0), 1.0, 0.0, 1.5, 0.0)
-    >>> print(np.degrees(behind).round(6))
-    25.373994
-    """
+    """Return the angles of light in front of a boundary and behind it, in radians."""
     refract, phase = refraction(of_module(xp)), phase_index(of_module(xp))
     c, s = xp.cos(incidence), xp.sin(incidence)
     with np.errstate(all="ignore"):

@@ -1,7 +1,8 @@
-"""Couplings: the ways of light through an element; the registry of element kinds."""
+"""Couplings: the ways of light through an element; values as kernels get them; known kinds."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ from optipath.light.decompositions import stacked
 from optipath.materials.material import Material
 from optipath.values.arrays import read_only, same_fields
 from optipath.values.operands import Operand, Operation, operand_of
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -73,25 +75,14 @@ class Coupling:
 
 
 def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
-    """Return operations turned by an angle in rad, right-handed from x.
-
-    >>> turned(0.0, Operation(TURN, (0.3,)))[0].kernel.name
-    'turn'
-    >>> [operation.kernel.name for operation in turned(0.5)]
-    ['turn', 'turn back']
-    """
+    """Return operations turned by an angle in rad, right-handed from x."""
     if isinstance(angle, (int, float)) and angle == 0.0:
         return operations
     return (Operation(TURN, (angle,)), *operations, Operation(TURN_BACK, (angle,)))
 
 
 def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
-    """Return a value as real numbers: (n, k) of a complex one, 4 of a vector, 16 of a matrix.
-
-    >>> from optipath.materials.index_domains import IndexDomain
-    >>> numbers_of(1.5 + 2j, IndexDomain("index"))
-    (1.5, 2.0)
-    """
+    """Return a value as real numbers: (n, k) of a complex one, 4 of a vector, 16 of a matrix."""
     if domain.tail:
         count = int(np.prod(domain.tail))
         return tuple(Operand(value, position, domain.tail) for position in range(count))
@@ -122,3 +113,30 @@ def register(kind: str, element_class: type[Any]) -> None:
 
 def _identity(element_class: type[Any]) -> tuple[str, str]:
     return element_class.__module__, element_class.__qualname__
+
+
+def bound_value(parameter: Parameter) -> Any:
+    """Return the value of a parameter that is bound; a multiple with its factor and offset."""
+    return parameter.placed(parameter.resolve(parameter.default).value)
+
+
+def vanishes(value: Any) -> bool:
+    """Tell whether a value is known to be 0."""
+    if type(value) is float:
+        return value == 0.0
+    operand = Operand(value) if isinstance(value, Parameter) else value
+    if isinstance(operand, Operand):
+        return operand.known and not operand.traced and not np.any(operand.numbers())
+    return isinstance(value, (int, float, np.ndarray)) and not np.any(value)
+
+
+def largest(value: Any) -> float:
+    """Return the size of a known value, or the most of an open one; infinite without a range."""
+    if isinstance(value, Parameter):
+        if not value.bound:
+            return value.span_of((value.minimum, value.maximum))[1]
+        value = bound_value(value)
+    if type(value) is float:
+        return abs(value)
+    known = np.asarray(value) if isinstance(value, (int, float, np.ndarray)) else np.array(None)
+    return float(np.max(np.abs(known), initial=0.0)) if known.dtype.kind in "iuf" else math.inf

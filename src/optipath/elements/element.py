@@ -7,9 +7,8 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, dataclass_transform, overload
 
 from optipath.elements.alone import mueller_alone
-from optipath.elements.coupling import register
+from optipath.elements.coupling import register, vanishes
 from optipath.elements.frame_checks import same_frame
-from optipath.elements.known_sizes import vanishes
 from optipath.elements.own_element import (
     class_faults,
     coupling_by_rows,
@@ -532,12 +531,7 @@ class Element(Chainable):
 
 
 def with_values(element: E, **values: Any) -> E:
-    """Return an element with other values, of which no degrees are asked about again.
-
-    >>> from optipath import Rotator
-    >>> with_values(Rotator(0.5), angle=-0.5)
-    Rotator(angle=-0.5)
-    """
+    """Return an element with other values, of which no degrees are asked about again."""
     stored = {name: read_only(value, widened=False) for name, value in values.items()}
     result = changed(element, _is_sound=False, **stored)
     if faults := result.faults(element.kind or type(element).__name__):

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.boundary import BoundaryElement
-from optipath.elements.coupling import Coupling, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of, vanishes
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import x_faults
-from optipath.elements.known_sizes import vanishes
 from optipath.kernels.catalog import (
     PHASE_INDEX,
     PLAIN_AMPLITUDES,

@@ -13,24 +13,15 @@ from optipath.elements import (  # noqa: F401
     mueller_element,
     polarizers,
     retarders,
-    rotators,
     splitters,
     vertices,
 )
 from optipath.elements.coupling import KINDS
-from optipath.elements.own_element import is_own
 from optipath.errors import PathError, did_you_mean
-
-STANDARD = tuple([known for known in KINDS.values() if not is_own(known)])
-"""The elements that come with the library."""
 
 
 def element_class(kind: str) -> type[Any]:
-    """Return the class of a kind.
-
-    >>> element_class("rotator").__name__
-    'Rotator'
-    """
+    """Return the class of a kind."""
     if kind not in KINDS:
         cure = did_you_mean(kind, sorted(KINDS))
         if "did you mean" not in cure:

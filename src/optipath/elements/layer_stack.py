@@ -12,12 +12,11 @@ import numpy as np
 from optipath.elements.alone import checked_alone, turned_alone
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.boundary_media import along_normal
-from optipath.elements.coupling import numbers_of
-from optipath.elements.known_sizes import vanishes
+from optipath.elements.coupling import numbers_of, vanishes
 from optipath.errors import CoherenceWarning, PathError, shown
 from optipath.kernels.catalog import stack
-from optipath.kernels.fresnel.absorbing import interference
 from optipath.kernels.fresnel.layers import attenuation
+from optipath.kernels.fresnel.stable import interference
 from optipath.kernels.primitives import NUMPY, of_module
 from optipath.light.frame import Frame
 from optipath.light.light import Light

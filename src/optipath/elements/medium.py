@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from optipath.elements.coupling import Coupling, turned
+from optipath.elements.coupling import Coupling, largest, turned, vanishes
 from optipath.elements.element import Element
-from optipath.elements.known_sizes import largest, vanishes
 from optipath.elements.polarizers import along_circular_axes
 from optipath.errors import ValueFault, collecting
 from optipath.kernels.catalog import (

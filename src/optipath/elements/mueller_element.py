@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 
-from optipath.elements.coupling import Coupling, numbers_of
+from optipath.elements.coupling import Coupling, bound_value, numbers_of
 from optipath.elements.element import Element, with_values
-from optipath.elements.known_sizes import bound_value
 from optipath.errors import Cure, Fault, PathError, ValueFault
 from optipath.kernels.catalog import MATRIX
 from optipath.light.decompositions import reciprocal, tolerance_for, tolerance_of

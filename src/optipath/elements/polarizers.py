@@ -150,13 +150,7 @@ _QUARTER, _DIAGONAL = math.pi / 2, math.pi / 4
 
 
 def along_circular_axes(*operations: Operation) -> tuple[Operation, ...]:
-    """Return operations between quarter-wave plates: S3 > 0 becomes x, S3 < 0 y, with all digits.
-
-    >>> from optipath.kernels.catalog import POLARIZER
-    >>> steps = along_circular_axes(Operation(POLARIZER, (1.0, 0.0)))
-    >>> [step.kernel.name for step in steps]
-    ['retarder', 'turn', 'polarizer', 'turn back', 'retarder']
-    """
+    """Return operations between quarter-wave plates: S3 > 0 becomes x, S3 < 0 y, to all digits."""
     there, back = Operation(RETARDER, (_QUARTER,)), Operation(RETARDER, (-_QUARTER,))
     # The plate makes light at -45 degrees of S3 > 0.
     return (there, *turned(-_DIAGONAL, *operations), back)

@@ -1,4 +1,4 @@
-"""Retarders: wave plates by retardance or thickness, elliptical retarders."""
+"""Retarders and rotators: by an angle, by thickness, by a magnetic field."""
 
 from __future__ import annotations
 
@@ -7,27 +7,41 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from optipath.elements.coupling import Coupling, turned
+from optipath.elements.coupling import Coupling, turned, vanishes
 from optipath.elements.element import Element
-from optipath.elements.known_sizes import vanishes
-from optipath.errors import ValueFault, shown
-from optipath.kernels.catalog import ELLIPTICAL_RETARDER, RETARDER, ROTATION_ALONG, WAVEPLATE
+from optipath.errors import ValueFault, listed, shown
+from optipath.kernels.catalog import (
+    ELLIPTICAL_RETARDER,
+    FARADAY_ROTATION,
+    RETARDER,
+    ROTATION_ALONG,
+    TURN_BACK,
+    WAVEPLATE,
+)
 from optipath.materials.crystals import Crystal
 from optipath.materials.quantities import (
     ANGLE,
     Angle,
     Axis,
     Birefringence,
+    MagneticField,
+    OptionalAngle,
+    OptionalPartLength,
     PartLength,
     RotationAngle,
+    VerdetConstant,
     Wavelength,
 )
 from optipath.values.curve_value import CurveValue
+from optipath.values.domains import Refused
 from optipath.values.operands import Operation
 from optipath.values.precision import real_number
 from optipath.values.wavelength import Wavelength as WavelengthParameter
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from optipath.values.domains import Domain
     from optipath.values.parameters import Parameter
 
 
@@ -137,11 +151,6 @@ class Waveplate(Element, kind="waveplate"):
         Waveplate
             At the wavelength of the run, so that a path of it takes ``wavelength=``.
 
-        Raises
-        ------
-        ValueFault
-            If any is no such value.
-
         Examples
         --------
         >>> round(Waveplate.quarter("550 nm", order=10).thickness * 1e6, 1)
@@ -163,19 +172,12 @@ class Waveplate(Element, kind="waveplate"):
 
         Parameters
         ----------
-        at : float or str
-            The wavelength, in metres, or ``"550 nm"``.
-        crystal, order, angle, azimuth
+        at, crystal, order, angle, azimuth
             As in `quarter`.
 
         Returns
         -------
         Waveplate
-
-        Raises
-        ------
-        ValueFault
-            If any is no such value.
         """
         return cls.retarding(math.pi, at, crystal, order=order, angle=angle, azimuth=azimuth)
 
@@ -198,19 +200,12 @@ class Waveplate(Element, kind="waveplate"):
         ----------
         retardance : float or str
             Beyond whole waves, in radians, not negative; 0 with an order of 1 is a full-wave plate.
-        at : float or str
-            The wavelength, in metres, or ``"550 nm"``.
-        crystal, order, angle, azimuth
+        at, crystal, order, angle, azimuth
             As in `quarter`.
 
         Returns
         -------
         Waveplate
-
-        Raises
-        ------
-        ValueFault
-            If any is no such value.
         """
         thickness, birefringence, wavelength = plate_for(retardance, at, crystal, order)
         return cls(thickness, birefringence, wavelength, angle, azimuth)
@@ -273,12 +268,7 @@ _TURN = 2.0 * math.pi
 
 
 def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float, Any, Any]:
-    """Return thickness, birefringence and wavelength of a plate, in metres.
-
-    >>> thickness, _, _ = plate_for("90 deg", "589.3 nm", 0.0091, 0)
-    >>> round(thickness * 1e6, 3)
-    16.19
-    """
+    """Return thickness, birefringence and wavelength of a plate, in metres."""
     whole = real_number(order)
     if whole is None or whole < 0.0 or not whole.is_integer():
         raise ValueFault(
@@ -291,18 +281,15 @@ def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float
             f"retardance is {phase:g}; give one of 0 or more, and turn the angle by 90 deg"
         )
     birefringence = _birefringence(crystal)
-    there = _at(birefringence, where)
+    by_wavelength = isinstance(birefringence, CurveValue)
+    there = float(birefringence.at(where) if by_wavelength else birefringence)
     if not np.isfinite(there) or there == 0.0:
         raise ValueFault(
             f"crystal has a birefringence of {there:g} at {where * 1e9:.10g} nm; give one that "
             f"retards"
         )
     thickness = (whole + phase / _TURN) * where / abs(there)
-    when = (
-        birefringence.depends_on[0]
-        if isinstance(birefringence, CurveValue)
-        else WavelengthParameter()
-    )
+    when = birefringence.depends_on[0] if by_wavelength else WavelengthParameter()
     return thickness, -birefringence if there < 0.0 else birefringence, when
 
 
@@ -318,12 +305,98 @@ def _birefringence(crystal: Any) -> Any:
     )
 
 
-def _at(birefringence: Any, wavelength: float) -> float:
-    known = isinstance(birefringence, CurveValue)
-    return float(birefringence.at(wavelength) if known else birefringence)
-
-
 def _one(name: str, number: Any) -> float:
     if np.ndim(number):
         raise ValueFault(f"{name} has shape {np.shape(number)}; give one number for one plate")
     return float(number)
+
+
+class Rotator(Element, kind="rotator"):
+    """An optical rotator, such as quartz along its axis.
+
+    Parameters
+    ----------
+    angle : float, array_like or Parameter
+        By how many radians the polarisation turns from x towards y: counter-clockwise to who
+        looks at the source, so that what is dextrorotatory has a negative angle.
+        ``Medium(length, dextrorotation=...)`` takes the chemists' sign. Light that comes back
+        from a mirror meets the same angle again, but the opposite one in a `FaradayRotator`.
+
+    Examples
+    --------
+    >>> Rotator(angle=0.1)
+    Rotator(angle=0.1)
+    """
+
+    mirrored: ClassVar[tuple[str, ...]] = ()
+
+    angle: Angle
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the turn of the light, which is the frame's turn undone."""
+        return (Coupling("in", "out", (Operation(TURN_BACK, (self.angle,)),)),)
+
+
+_FACTORS = ("verdet", "field", "length")
+_CURE = f"give the angle alone, or {listed([*_FACTORS])}"
+
+
+class FaradayRotator(Element, kind="faraday-rotator"):
+    """A Faraday rotator: glass, a crystal or a vapour in a magnetic field along the light.
+
+    By its angle, or by V B L, the product of Verdet constant, field and length (Hecht, Optics,
+    sec. 8.11.2). It does to light what a `Rotator` does, but on the way back: the field is then
+    against the light, and in the frame of that light the angle is the opposite one.
+
+    Parameters
+    ----------
+    angle : float, array_like or Parameter, optional
+        By how many radians the polarisation turns from x towards y, counter-clockwise to who
+        looks at the source, for light that enters at ``in``.
+    verdet : float, array_like or Parameter, optional
+        The Verdet constant in rad/(T m), -1e9 to 1e9. With a positive one, of most glasses, light
+        that goes along the field turns from x towards y (levorotatory, as Hecht has it). That of
+        terbium gallium garnet (TGG) is about -134 at 632.8 nm.
+    field : float, array_like or Parameter, optional
+        The magnetic flux density along the direction of travel, in teslas, -1e6 to 1e6; negative
+        where it points against the light.
+    length : float, array_like or Parameter, optional
+        How far light goes through it, in metres, up to a kilometre.
+
+    Examples
+    --------
+    >>> from optipath.light.light import Light
+    >>> horizontal = Light([1.0, 1.0, 0.0, 0.0])
+    >>> garnet = FaradayRotator(verdet=-134.0, field="-0.2 T", length="20 mm")
+    >>> print((garnet @ horizontal).aop.round(9), (FaradayRotator(0.536) @ horizontal).aop.round(9))
+    0.536 0.536
+    """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("angle", "field")
+
+    angle: OptionalAngle | None = None
+    verdet: VerdetConstant | None = None
+    field: MagneticField | None = None
+    length: OptionalPartLength | None = None
+
+    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield every value; an angle beside another, or a factor that is missing, is refused."""
+        yield from super().quantities()
+        arguments = [name for name in _FACTORS if getattr(self, name) is not None]
+        if self.angle is not None and arguments:
+            why = f"is given beside {listed(arguments)}; {_CURE}"
+            yield "angle", self.angle, Refused("angle", why=why)
+        elif self.angle is None and len(arguments) < len(_FACTORS):
+            missing = (
+                [name for name in _FACTORS if name not in arguments] if arguments else ["angle"]
+            )
+            why = f"is missing; {_CURE}"
+            yield from ((name, None, Refused(name, why=why)) for name in missing)
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the turn of the light, which is the frame's turn undone."""
+        if self.angle is not None:
+            turning = Operation(TURN_BACK, (self.angle,))
+        else:
+            turning = Operation(FARADAY_ROTATION, (self.verdet, self.field, self.length))
+        return (Coupling("in", "out", (turning,)),)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
 
-from optipath.elements.known_sizes import bound_value
+from optipath.elements.coupling import bound_value
 from optipath.errors import PathError, ValueFault, shown
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import cosine, sine
@@ -136,11 +136,7 @@ def vertices_from_angles(
 
 
 def counted(count: int, what: str) -> str:
-    """Return how many there are of something.
-
-    >>> counted(1, "turn"), counted(2, "turn")
-    ('1 turn', '2 turns')
-    """
+    """Return how many there are of something."""
     return f"{count} {what}{'s' * (count != 1)}"
 
 
@@ -171,11 +167,7 @@ class VerticesDomain(Domain):
         return "the points of a chain, without a unit"
 
     def kept(self, value: Any) -> Any:
-        """Return a value that nobody can change; whole numbers, whose differences wrap, as floats.
-
-        >>> VERTICES.kept(np.eye(3, dtype=np.uint8)).dtype
-        dtype('float64')
-        """
+        """Return a value that nobody can change; whole numbers, which may wrap, as floats."""
         stored = read_only(value)
         whole = isinstance(stored, np.ndarray) and stored.dtype.kind in "iu"
         return read_only(stored.astype(np.float64)) if whole else stored
@@ -255,11 +247,7 @@ _AT_ONCE = 1 << 11
 
 
 def of_chain(chain: int, batch: tuple[int, ...]) -> str:
-    """Return which chain of a batch is meant, ready to be put behind what is in it.
-
-    >>> of_chain(0, ()), of_chain(7, (10,)), of_chain(7, (2, 5))
-    ('', ' of chain 7', ' of chain (1, 2)')
-    """
+    """Return which chain of a batch is meant, ready to be put behind what is in it."""
     if not batch:
         return ""
     results = tuple(int(place) for place in np.unravel_index(chain, batch))
@@ -267,22 +255,13 @@ def of_chain(chain: int, batch: tuple[int, ...]) -> str:
 
 
 def pieces_of(count: int) -> Iterator[slice]:
-    """Yield slices of so many chains.
-
-    >>> list(pieces_of(3000))
-    [slice(0, 2048, None), slice(2048, 3000, None)]
-    """
+    """Yield slices of so many chains."""
     for start in range(0, count, _AT_ONCE):
         yield slice(start, min(start + _AT_ONCE, count))
 
 
 def vertices_back(owner: str, vertices: Any) -> Any:
-    """Return the points (..., m + 2, 3) of a chain from its end to its start.
-
-    >>> import numpy as np
-    >>> vertices_back("vertex", np.array([[0, 0, 0], [0, 0, 1], [0, 1, 1]])).tolist()
-    [[0, 1, 1], [0, 0, 1], [0, 0, 0]]
-    """
+    """Return the points (..., m + 2, 3) of a chain from its end to its start."""
     if isinstance(vertices, VerticesByAngles):
         return replace(vertices, backwards=not vertices.backwards)
     if isinstance(vertices, Parameter):

@@ -102,13 +102,7 @@ class ChainVertex(MediaOfBoundary, Element):
         return domain
 
     def reversed(self) -> Self:
-        """Return the vertex in the chain from its end to its start.
-
-        Raises
-        ------
-        PathError
-            If the vertices are an open parameter.
-        """
+        """Return the vertex in the chain from its end to its start, which must be known."""
         vertices = vertices_back(self.kind, self.vertices)
         place = self.in_chain.count + 1 - self.place
         return with_values(super().reversed(), vertices=vertices, place=place)
@@ -242,13 +236,7 @@ class Vertex(ChainVertex, kind="vertex"):
         return points.planes(TURN_AT_REFRACTION)
 
     def reversed(self) -> NoReturn:
-        """Refuse: chains that end at several places have no one way back.
-
-        Raises
-        ------
-        PathError
-            Always.
-        """
+        """Refuse: chains that end at several places have no one way back."""
         raise PathError(
             f"{self.kind} stands for chains that differ in their events or their lengths, whose "
             f"ways back begin at several places; make a path of the chains of each kind, with one "
@@ -290,18 +278,11 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     ----------
     index : float, complex, array_like, Material or Parameter
         The index of refraction n + ik of the reflecting medium.
-    vertices : array_like, shape (..., m + 2, 3), Parameter or VerticesByAngles
-        The points from the light, over m vertices, to the eye; in the unit of any length.
-    place : int
-        Which of the m vertices this is, 1 being the first that light meets.
-    outside : float, array_like, Material, Parameter or FOLLOWS, optional
-        The index of the medium that light comes from, without absorption.
+    vertices, place, outside, bad
+        As `Vertex` takes them; `vertices` may be a `VerticesByAngles`.
     reflections : int, optional
         How many vertices there are, m; needed only where `vertices` is a parameter without
         default.
-    bad : {"refuse", "mask"}, optional
-        Whether chains that cannot be, as those with a leg of no length, are refused, or have
-        light that is NaN.
 
     Examples
     --------
@@ -345,18 +326,11 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     ----------
     index : float, array_like, Material or Parameter
         The index of refraction of the medium that light goes on in, without absorption.
-    vertices : array_like, shape (..., m + 2, 3), or Parameter
-        The points from the light, over m vertices, to the eye; in the unit of any length.
-    place : int
-        Which of the m vertices this is, 1 being the first that light meets.
-    outside : float, array_like, Material, Parameter or FOLLOWS, optional
-        The index of the medium that light comes from, without absorption.
+    vertices, place, outside, bad
+        As `Vertex` takes them.
     count : int, optional
         How many vertices there are, m; needed only where `vertices` is a parameter without
         default.
-    bad : {"refuse", "mask"}, optional
-        Whether chains that cannot be, as those with a leg of no length, are refused, or have
-        light that is NaN.
 
     Raises
     ------
@@ -397,13 +371,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
         return (Coupling("in", "transmitted", (operation,)),)
 
     def reversed(self) -> Self:
-        """Return the vertex in the chain from its end to its start, its media exchanged.
-
-        Raises
-        ------
-        PathError
-            If the vertices are an open parameter, or the medium in front is not known.
-        """
+        """Return the vertex in the chain from its end to its start, its media exchanged."""
         if self.outside is FOLLOWS:
             raise PathError(
                 f"{self.kind} takes its outside over from the vertex before it (FOLLOWS), which "

@@ -13,7 +13,7 @@ from optipath.kernels.carriers.structures import (
     ROTATION,
     SCALE,
 )
-from optipath.kernels.fresnel import absorbing, boundary, stable, textbook, variants
+from optipath.kernels.fresnel import boundary, stable, textbook, variants
 from optipath.kernels.fresnel.boundary import Refracting
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.variants import AtAngle, AtEvent, Compensated
@@ -191,17 +191,17 @@ def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> K
 
 REFLECTION_FROM_ABSORBING = _from_front(
     REFLECTION,
-    absorbing.inhomogeneous_reflection,
+    stable.inhomogeneous_reflection,
     textbook.amplitude_inhomogeneous_reflection,
 )
 TRANSMISSION_FROM_ABSORBING = _from_front(
     TRANSMISSION,
-    absorbing.inhomogeneous_transmission,
+    stable.inhomogeneous_transmission,
     textbook.amplitude_inhomogeneous_transmission,
 )
 TRANSMISSION_FROM_BEHIND = _from_behind(
     TRANSMISSION,
-    absorbing.transmission_from_behind,
+    stable.transmission_from_behind,
     textbook.amplitude_transmission_from_behind,
 )
 PHASE_INDEX = Kernel(

@@ -48,13 +48,7 @@ _SERIES = (
 
 
 def exponential(xp: Primitives, dtype: str) -> Callable[[Any], Any]:
-    """Make ``exp``, infinite and 0 where that is beyond floats.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> exp = exponential(FLOAT, "float64")
-    >>> exp(-0.5), exp(0.0), exp(-1000.0)
-    (0.6065306597126334, 1.0, 0.0)
-    """
+    """Make ``exp``, infinite and 0 where that is beyond floats."""
     where, ldexp, integer = xp.where, xp.ldexp, xp.integer
     digits = _DIGITS[dtype]
 
@@ -81,10 +75,6 @@ def scaled_hyperbolic(xp: Primitives) -> Callable[[Any, Any], tuple[Any, Any]]:
     """Make ``(x, shift) -> (cosh x exp(-shift), sinh x exp(-shift))`` for |x| <= shift.
 
     |x| above shift by a rounding is taken as shift; its slope stays.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> scaled_hyperbolic(FLOAT)(1e-20, 0.0), scaled_hyperbolic(FLOAT)(1000.0, 1000.0)
-    ((1.0, 1e-20), (0.5, 0.5))
     """
     exp, where, absolute, fixed = xp.exp, xp.where, xp.absolute, xp.fixed
 
@@ -118,11 +108,6 @@ def complementary_error(xp: Primitives) -> Callable[[Any], Any]:
     The midpoint rule for its integral of exp(-t^2) / (t^2 + x^2), which converges faster than any
     power, and the residue that it leaves (D. B. Hunter and T. Regan, Math. Comp. 26, 539 (1972)):
     nothing is subtracted.
-
-    >>> from math import erfc
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> abs(complementary_error(FLOAT)(0.7) - erfc(0.7)) < 4e-16
-    True
     """
     exponential = xp.exp
 
@@ -179,11 +164,7 @@ def reproducible(
 
 @cache
 def reproducible_numpy(dtype: str) -> Primitives:
-    """Return primitives of NumPy whose elementary functions every engine does alike.
-
-    >>> reproducible_numpy("float64").sin(np.array([0.5, 1e6]))
-    array([ 0.47942554, -0.3499935 ])
-    """
+    """Return primitives of NumPy whose elementary functions every engine does alike."""
     return reproducible(NUMPY, dtype)
 
 

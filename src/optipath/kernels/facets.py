@@ -25,11 +25,6 @@ def plane_at_facet(xp: Primitives) -> Callable[[Vector, Vector, Vector], tuple[A
 
     The normal is on the side of the light. The plane of incidence is across s, along normal cross
     k; along the normal, s is x. The frame is turned by a from x to s.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> k, y, up = (0.6, 0.0, -0.8), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-    >>> plane_at_facet(FLOAT)(k, y, up)
-    (0.8, 0.6, (-0.0, 1.0, 0.0), 1.0, 0.0)
     """
     sqrt, where, maximum, chosen, aligned = xp.sqrt, xp.where, xp.maximum, choice(xp), align(xp)
 
@@ -47,11 +42,7 @@ def plane_at_facet(xp: Primitives) -> Callable[[Vector, Vector, Vector], tuple[A
 
 
 def reflected_at_facet(k: Vector, normal: Vector, cos: Any) -> Vector:
-    """Return the direction of what a facet reflects.
-
-    >>> reflected_at_facet((0.6, 0.0, -0.8), (0.0, 0.0, 1.0), 0.8)
-    (0.6, 0.0, 0.8)
-    """
+    """Return the direction of what a facet reflects."""
     return plus(k, times(2.0 * cos, normal))
 
 
@@ -61,11 +52,6 @@ def refracted_at_facet(xp: Primitives) -> Callable[..., Vector]:
     Snell's law as a vector (Glassner, ed., An Introduction to Ray Tracing, Academic Press 1989,
     ch. 4): n k' = n1 k + (n1 cos - g) normal, with the wave g of the boundary. Where all is
     reflected, it means nothing.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> direction = refracted_at_facet(FLOAT)(1.0, 1.5, (0.6, 0.0, -0.8), (0.0, 0.0, 1.0), 0.8, 0.6)
-    >>> [round(number, 12) for number in direction]
-    [0.4, 0.0, -0.916515138991]
     """
     boundary = lossless_boundary(xp)
 
@@ -135,12 +121,6 @@ def facet_between(xp: Primitives) -> Callable[[Vector, Vector, Vector, Vector], 
     The normal is along k_out - k_in, and s along the product of this and k_out + k_in, which are
     at right angles: neither next to normal nor next to grazing incidence is a digit lost. Light
     that goes back the way it came keeps its x, as at any boundary.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> x = (0.0, 1.0, 0.0)
-    >>> met = facet_between(FLOAT)((0.6, 0.0, -0.8), x, (0.6, 0.0, 0.8), x)
-    >>> met.cos, met.sin, met.slopes, met.turn_in, met.turn_out
-    (0.8, 0.6, (0.0, 0.0), (1.0, 0.0), (1.0, 0.0))
     """
     length, aligned, chosen, where = norm(xp), align(xp), choice(xp), xp.where
 
@@ -173,10 +153,6 @@ def beckmann(xp: Primitives) -> Callable[[Any, Any, Any, Any], Any]:
     exp(-(slope_x / alpha_x)^2 - (slope_y / alpha_y)^2) / (pi alpha_x alpha_y); alpha^2 is twice
     the mean square slope along an axis (E. Heitz, "Generating procedural Beckmann surfaces",
     2015).
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> beckmann(FLOAT)(0.0, 0.0, 1.0, 1.0) * pi
-    1.0
     """
     exp = xp.exp
 
@@ -201,11 +177,6 @@ def smith_cosine(xp: Primitives) -> Callable[[Vector, Any, Any], Any]:
     tan(theta)) and the alpha along k, Lambda = exp(-a^2) / (2 a sqrt(pi)) - erfc(a) / 2 (B. G.
     Smith, IEEE Trans. Antennas Propag. 15, 668 (1967); E. Heitz, J. Computer Graphics Techniques
     3(2), 48 (2014), sec. 5). All terms are finite at grazing and at normal incidence.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> cosine = smith_cosine(FLOAT)
-    >>> cosine((0.0, 0.0, -1.0), 0.5, 0.5), round(cosine((1.0, 0.0, 0.0), 0.5, 0.5), 6)
-    (1.0, 0.141047)
     """
     exp, maximum, absolute = xp.exp, xp.maximum, xp.absolute
     length, erfc = norm(xp), complementary_error(xp)

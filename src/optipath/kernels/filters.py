@@ -56,13 +56,12 @@ def complement(xp: Primitives) -> KernelFunction:
 def depolarizer(xp: Primitives) -> KernelFunction:
     """Make ``(depolarization,) ->`` the sixteen numbers of diag(1, p, p, p), p = 1 - d."""
     del xp
+    return lambda depolarization: diagonal(1.0 - depolarization)
 
-    def depolarize(depolarization: Any) -> tuple[Any, ...]:
-        p = 1.0 - depolarization
-        rows = (1.0, 0.0, 0.0, 0.0), (0.0, p, 0.0, 0.0), (0.0, 0.0, p, 0.0), (0.0, 0.0, 0.0, p)
-        return tuple(entry for row in rows for entry in row)
 
-    return depolarize
+def diagonal(p: Any) -> tuple[Any, ...]:
+    """Return the sixteen numbers of diag(1, p, p, p)."""
+    return 1.0, *(p if place % 5 == 0 else 0.0 for place in range(1, 16))
 
 
 def mirror(xp: Primitives) -> KernelFunction:

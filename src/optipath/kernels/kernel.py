@@ -157,11 +157,7 @@ _CURES = (
 
 
 def in_words(what: str, error: BaseException) -> OptipathError:
-    """Return an error of the library for what code of a user's own has raised.
-
-    >>> print(in_words("it", ZeroDivisionError("division by zero")))
-    it raises ZeroDivisionError: division by zero; let xp.where choose another divisor there
-    """
+    """Return an error of the library for what code of a user's own has raised."""
     if isinstance(error, AttributeError) and isinstance(error.obj, Primitives):
         known = _OTHERWISE.get(str(error.name))
         cure = f"; write {known}" if known else did_you_mean(error.name, FUNCTIONS)

@@ -29,13 +29,7 @@ _LEAST = 2.0**-53
 
 
 class Elimination:
-    """A system of unknowns, eliminated one after the other, and what its solutions are.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> found = Elimination(FLOAT, [{1: 0.25}, {0: 0.5}], [0.75, 0.5], [True, True])
-    >>> found.pivots, found.solved([1.0, 0.0])
-    ([1.0, 0.875], [1.1428571428571428, 0.2857142857142857])
-    """
+    """A system of unknowns, eliminated one after the other, and what its solutions are."""
 
     def __init__(
         self,

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.exponential import scaled_hyperbolic
-from optipath.kernels.filters import retarder, turn
+from optipath.kernels.filters import diagonal, retarder, turn
 from optipath.kernels.primitives import products
 from optipath.kernels.trigonometry import cosine, sine
 from optipath.kernels.vectors import common_size, cross, dot, hypotenuse, norm, plus, times
@@ -117,12 +117,7 @@ def dichroism_along(xp: Primitives) -> KernelFunction:
 def depolarization_along(xp: Primitives) -> KernelFunction:
     """Make ``(depolarization, length) ->`` the sixteen numbers of diag(1, t, t, t)."""
     exp = xp.exp
-
-    def depolarize(depolarization: Any, length: Any) -> tuple[Any, ...]:
-        t = exp(-(depolarization * length))
-        return (1.0, *(t if place % 5 == 0 else 0.0 for place in range(1, 16)))
-
-    return depolarize
+    return lambda depolarization, length: diagonal(exp(-(depolarization * length)))
 
 
 def dichroism_and_retardance_along(xp: Primitives) -> KernelFunction:

@@ -171,11 +171,7 @@ _SEVERAL = 64.0
 
 
 def products(*pairs: tuple[Any, Any]) -> Any:
-    """Return the sum of products, without those that have a plain 0 for a factor.
-
-    >>> products((2.0, 3.0), (1.0, 0.0), (1.0, 4.0))
-    10.0
-    """
+    """Return the sum of products, without those that have a plain 0 for a factor."""
     terms = [a * b for a, b in pairs if not (_is_plain_zero(a) or _is_plain_zero(b))]
     return sum(terms[1:], start=terms[0]) if terms else 0.0 * pairs[0][0] * pairs[0][1]
 
@@ -188,21 +184,12 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
     """Return an intensity, 0 where it is negative by no more than the roundings of a size.
 
     Negative intensities by unphysical matrices of one's own stay.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
-    (0.0, -0.1)
     """
     return _taken_as_0(xp, (weak < 0.0) & vanishes(weak, _SEVERAL * size), weak)
 
 
 def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
-    """Return a number, 0 where it is no more than the roundings of a size.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> not_above_rounding(FLOAT, -1e-16, 1.0), not_above_rounding(FLOAT, 1e-6, 1.0)
-    (0.0, 1e-06)
-    """
+    """Return a number, 0 where it is no more than the roundings of a size."""
     return _taken_as_0(xp, vanishes(number, _SEVERAL * size), number)
 
 

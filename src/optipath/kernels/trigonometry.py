@@ -76,26 +76,12 @@ DIGITS = {
 
 
 def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
-    """Make ``angle -> left``: the angle less the nearest right angles, 0 if that is its rounding.
-
-    >>> import math
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> left = from_axes(FLOAT, DIGITS["float64"])
-    >>> left(math.pi + 0.25), left(math.pi), left(math.nextafter(math.pi, 4.0))
-    (0.2499999999999999, 0.0, 3.216245299353273e-16)
-    """
+    """Make ``angle -> left``: the angle less the nearest right angles, 0 if that is rounding."""
     return without_rounding(xp, lambda angle: _quarters(digits)(angle)[1])
 
 
 def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
-    """Make ``angle -> left`` for angles in 0 .. pi/2: the angle, or pi/2 less it; 0 if rounding.
-
-    >>> import math
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> left = from_nearer_axis(FLOAT, DIGITS["float64"])
-    >>> left(0.5), left(math.nextafter(math.pi / 2, 0.0)), left(math.pi / 2)
-    (0.5, 2.83276944882399e-16, 0.0)
-    """
+    """Make ``angle -> left`` for angles in 0 .. pi/2: the angle, or pi/2 less it; 0 if rounding."""
     maximum, minimum = xp.maximum, xp.minimum
 
     def left(angle: Any) -> Any:
@@ -110,10 +96,6 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     """Make ``(angle, [left]) -> (sin, cos)`` of an angle of at most `digits.most` in size.
 
     Of an angle that was given in more digits, ``left`` is that of `from_axes` in these.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> any_quadrant(FLOAT, DIGITS["float64"])(2.5)
-    (0.5984721441039564, -0.8011436155469337)
     """
     where, absolute, near_zero = xp.where, xp.absolute, _near_zero(digits)
     quarters, rounded = _quarters(digits), _rounded(digits)
@@ -136,12 +118,6 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
 
     The cosine is 0 where the angle may be a right one. Of an angle that was given in more digits,
     ``left`` is that of `from_nearer_axis` in these.
-
-    >>> import math
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> sine_cosine = first_quadrant(FLOAT, DIGITS["float64"])
-    >>> sine_cosine(1.2), sine_cosine(math.pi / 2)
-    ((0.9320390859672263, 0.3623577544766736), (1.0, 0.0))
     """
     where, near_zero, reduced = xp.where, _near_zero(digits), from_nearer_axis(xp, digits)
 
@@ -192,24 +168,12 @@ def _near_zero(digits: Digits) -> Callable[[Any], SinCos]:
 
 
 def cosine(xp: Primitives) -> Callable[[Any], Any]:
-    """Make ``cos``, 0 at the odd multiples of pi/2.
-
-    >>> import math
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> cosine(FLOAT)(math.pi / 2), cosine(FLOAT)(math.pi)
-    (0.0, -1.0)
-    """
+    """Make ``cos``, 0 at the odd multiples of pi/2."""
     return without_rounding(xp, xp.cos)
 
 
 def sine(xp: Primitives) -> Callable[[Any], Any]:
-    """Make ``sin``, 0 at the multiples of pi.
-
-    >>> import math
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> sine(FLOAT)(math.pi), sine(FLOAT)(1e-300)
-    (0.0, 1e-300)
-    """
+    """Make ``sin``, 0 at the multiples of pi."""
     return without_rounding(xp, xp.sin)
 
 
@@ -246,13 +210,7 @@ _RIGHT_LOW = 6.123233995736766e-17
 
 
 def arc_tangent(xp: Primitives) -> Callable[[Any, Any], Any]:
-    """Make ``(y, x) -> angle`` of a point, within -pi .. pi; that of the origin is 0.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> angle = arc_tangent(FLOAT)
-    >>> angle(1.0, -1.0), angle(-2.0, 0.0), angle(0.0, 0.0)
-    (2.356194490192345, -1.5707963267948966, 0.0)
-    """
+    """Make ``(y, x) -> angle`` of a point, within -pi .. pi; that of the origin is 0."""
     where, absolute = xp.where, xp.absolute
     maximum, minimum = xp.maximum, xp.minimum
 

@@ -32,20 +32,12 @@ def times(number: Any, a: Vector) -> Vector:
 
 
 def dot(a: Vector, b: Vector) -> Any:
-    """Return a . b.
-
-    >>> dot((1.0, 2.0, 3.0), (1.0, 0.0, -1.0))
-    -2.0
-    """
+    """Return a . b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """Return a cross b.
-
-    >>> cross((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
-    (0.0, 0.0, 1.0)
-    """
+    """Return a cross b."""
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -68,10 +60,6 @@ def common_size(xp: Primitives) -> Callable[..., Any]:
     """Make ``(x, ...) ->`` the largest absolute value, without a slope, or 1 where all are 0.
 
     What is divided by it has squares that neither vanish nor are too large.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> common_size(FLOAT)(0.5, -3.0), common_size(FLOAT)(0.0, 0.0)
-    (3.0, 1.0)
     """
     maximum, absolute, where, fixed = xp.maximum, xp.absolute, xp.where, xp.fixed
 
@@ -83,12 +71,7 @@ def common_size(xp: Primitives) -> Callable[..., Any]:
 
 
 def norm(xp: Primitives) -> Callable[..., Any]:
-    """Make ``(x, ...) -> sqrt(x^2 + ...)``; its slope is 0 where all are 0.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> norm(FLOAT)(3.0, -4.0), norm(FLOAT)(0.0, 0.0), norm(FLOAT)(1e200, 0.0)
-    (5.0, 0.0, 1e+200)
-    """
+    """Make ``(x, ...) -> sqrt(x^2 + ...)``; its slope is 0 where all are 0."""
     sqrt, where, size_of = xp.sqrt, xp.where, common_size(xp)
 
     def length(*numbers: Any) -> Any:
@@ -102,12 +85,7 @@ def norm(xp: Primitives) -> Callable[..., Any]:
 
 
 def brought_near_one(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, n, ...) ->`` the same, divided by a power of two near the largest.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> brought_near_one(FLOAT)(1.0, 6.0)
-    (0.125, 0.75)
-    """
+    """Make ``(n1, n, ...) ->`` the same, divided by a power of two near the largest."""
     scaling, ldexp, maximum, inside = xp.scaling, xp.ldexp, xp.maximum, from_within(xp)
 
     def divided(*indices: Any) -> tuple[Any, ...]:
@@ -138,10 +116,6 @@ def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
     """Make ``(x, y) -> sqrt(x^2 + y^2)`` for x, y >= 0, the larger of at most 1e18.
 
     Below 1e-150 it is the larger, as it is where the other is much smaller.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> hypotenuse(FLOAT)(3e-140, 4e-140), hypotenuse(FLOAT)(1e-240, 0.0)
-    (5e-140, 1e-240)
     """
     sqrt, where, maximum = xp.sqrt, xp.where, xp.maximum
 
@@ -161,10 +135,6 @@ def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, An
     """Make ``(u, n, k) -> (a, b, |g|^2)`` with g = a + ib = sqrt(u + 2ink), a, b >= 0.
 
     The larger of a and b is a sum; the smaller is what ab = nk leaves for it.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> complex_root(FLOAT)(-3.0, 2.0, 1.0)[:2]
-    (1.0, 2.0)
     """
     sqrt, where, absolute, length = xp.sqrt, xp.where, xp.absolute, hypotenuse(xp)
 

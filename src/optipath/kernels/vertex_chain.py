@@ -35,12 +35,7 @@ class Leg(NamedTuple):
 
 
 def incidence(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
-    """Make ``(x0, y0, z0, ..., z2) -> (cos, sin)``: half |k_out - k_in| and half |k_out + k_in|.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> incidence(FLOAT)(0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
-    (0.7071067811865476, 0.7071067811865476)
-    """
+    """Make ``(x0, y0, z0, ..., z2) -> (cos, sin)``: half |k_out - k_in| and half |k_out + k_in|."""
     along, between = legs(xp), incidence_between(xp)
 
     def met(*coordinates: Any) -> tuple[Any, Any]:
@@ -61,11 +56,7 @@ def incidence_between(xp: Primitives) -> Callable[[Leg, Leg], tuple[Any, Any]]:
 
 
 def points_of(coordinates: Sequence[Any]) -> list[Vector]:
-    """Return coordinates in a row as points.
-
-    >>> points_of((1, 2, 3, 4, 5, 6))
-    [(1, 2, 3), (4, 5, 6)]
-    """
+    """Return coordinates in a row as points."""
     rows = range(0, len(coordinates), 3)
     return [(coordinates[i], coordinates[i + 1], coordinates[i + 2]) for i in rows]
 
@@ -101,11 +92,7 @@ class Event:
 
 
 def ended(events: Sequence[Any]) -> list[Any]:
-    """Return the condition of each vertex that its chain has ended before.
-
-    >>> ended([Event.REFLECTS, Event.BEHIND])
-    [False, True]
-    """
+    """Return the condition of each vertex that its chain has ended before."""
     return [event == Event.BEHIND for event in events]
 
 
@@ -115,11 +102,6 @@ def event_at_vertex(xp: Primitives) -> KernelFunction:
     Of the last of some vertices: media and angle as `incidence_between` or `refracted` say; NaN
     into an absorbing medium and for an impossible event. Points behind the end of a chain are not
     used.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> points = (0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
-    >>> event_at_vertex(FLOAT)(1.0, 1.5, 0.0, Event.REFLECTS, *points)
-    (1.0, 1.5, 0.7071067811865476, 0.7071067811865476)
     """
     where, along = xp.where, legs(xp)
     reflection, refraction = incidence_between(xp), refracted(xp)
@@ -149,15 +131,7 @@ _ROUNDINGS = 2.0**-10
 
 
 def refraction_at_vertex(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, n2, x0, y0, z0, ..., z2) -> (rarer, denser, cos, sin)``.
-
-    >>> from math import sqrt
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> behind = (0.0, 1.0, -sqrt(3.5))
-    >>> numbers = refraction_at_vertex(FLOAT)(1.0, 1.5, 0.0, -1.0, 1.0, 0.0, 0.0, 0.0, *behind)
-    >>> [round(number, 12) for number in numbers]
-    [1.0, 1.5, 0.707106781187, 0.707106781187]
-    """
+    """Make ``(n1, n2, x0, y0, z0, ..., z2) -> (rarer, denser, cos, sin)``."""
     along, met = legs(xp), refracted(xp)
 
     def refraction(n1: Any, n2: Any, *coordinates: Any) -> tuple[Any, Any, Any, Any]:
@@ -248,13 +222,7 @@ class OfPlanes:
 
 @dataclass(frozen=True)
 class TurnBetweenPlanes(OfPlanes):
-    """Makes ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> up_sideways_on = (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0)
-    >>> TurnBetweenPlanes()(FLOAT)(*up_sideways_on)
-    (-1.0, 0.0)
-    """
+    """Makes ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices."""
 
     across: bool = False
 
@@ -339,10 +307,6 @@ class PointsByAngles:
 
     Legs are of length 1. The middle one runs from the origin along the world's z, where the points
     lose no digit of a small angle; the plane of incidence at its start is across the world's x.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> PointsByAngles(1, 0, 2)(FLOAT)(0.0, 1.0)
-    (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0)
     """
 
     reflections: int
@@ -382,7 +346,9 @@ class PointsByAngles:
                 across[vertex] = light.x
                 light = light.before_reflection(*met[vertex])
                 result[vertex - 1] = minus(result[vertex], light.z)
-                light = light.before_turn(*turned[vertex]) if vertex in turned else light
+                if vertex in turned:
+                    c, s = turned[vertex]
+                    light = light.turned(c, -s)
             wanted = [result[point] for point in range(first, last + 1)][::order]
             if self.axes:
                 wanted += [across[vertex] for vertex in range(first + 1, last)][::order]
@@ -402,9 +368,6 @@ class _Axes(NamedTuple):
         x = plus(times(c, self.x), times(s, self.y))
         return _Axes(x, minus(times(c, self.y), times(s, self.x)), self.z)
 
-    def before_turn(self, c: Any, s: Any) -> _Axes:
-        return self.turned(c, -s)
-
     def reflected(self, c: Any, s: Any) -> _Axes:
         """Return the axes behind a reflection: y and z turned on about x, as light is."""
         twice_c, twice_s = (c - s) * (c + s), 2.0 * s * c
@@ -414,10 +377,8 @@ class _Axes(NamedTuple):
 
     def before_reflection(self, c: Any, s: Any) -> _Axes:
         """Return the axes before a reflection; the same turn, the other way round."""
-        twice_c, twice_s = (c - s) * (c + s), 2.0 * s * c
-        y = minus(times(twice_s, self.z), times(twice_c, self.y))
-        z = plus(times(twice_c, self.z), times(twice_s, self.y))
-        return _Axes(self.x, y, times(-1.0, z))
+        x, z, y = _Axes(self.x, self.z, self.y).reflected(c, s)
+        return _Axes(x, y, z)
 
 
 _ORIGIN: Vector = (0.0, 0.0, 0.0)

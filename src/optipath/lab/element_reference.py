@@ -8,9 +8,8 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements.coupling import Coupling
+from optipath.elements.coupling import Coupling, vanishes
 from optipath.elements.interface import Interface, Mirror
-from optipath.elements.known_sizes import vanishes
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
 from optipath.elements.mueller_element import MuellerElement
@@ -22,8 +21,13 @@ from optipath.elements.polarizers import (
     Diattenuator,
     Polarizer,
 )
-from optipath.elements.retarders import EllipticalRetarder, Retarder, Waveplate
-from optipath.elements.rotators import FaradayRotator, Rotator
+from optipath.elements.retarders import (
+    EllipticalRetarder,
+    FaradayRotator,
+    Retarder,
+    Rotator,
+    Waveplate,
+)
 from optipath.elements.splitters import BeamSplitter, Combiner, PolarizingBeamSplitter
 from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
 from optipath.errors import PathError

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from optipath.composer.placement import is_zero
+from optipath.elements.coupling import vanishes
 from optipath.elements.element import Chainable, begun
 from optipath.elements.frame_checks import azimuth_at
-from optipath.elements.known_sizes import vanishes
 from optipath.elements.own_element import couplings_of
 from optipath.errors import PathError
 from optipath.materials.index_domains import FOLLOWS

@@ -14,9 +14,9 @@ from optipath.composer.meetings import Meetings
 from optipath.composer.placement import azimuth_of, frame_at, is_zero
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements.boundary import BoundaryElement
+from optipath.elements.coupling import vanishes
 from optipath.elements.element import Element
 from optipath.elements.ends import Detector, Dump, Source
-from optipath.elements.known_sizes import vanishes
 from optipath.errors import OptipathError, PathError, did_you_mean, listed, shown, there_are
 from optipath.kernels.kernel import called
 from optipath.paths.editing import find_port

@@ -33,12 +33,7 @@ _MANY = 1024.0
 
 
 def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
-    """Return Stokes components as they are carried, or the first `count` of them.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> carry(FLOAT, (1.0, -0.5, 0.0, 0.0)), carry(FLOAT, (1.0, 0.0, 0.0, 0.0), 1)
-    ((0.25, -0.5, 0.0, 0.0), (0.5,))
-    """
+    """Return Stokes components as they are carried, or the first `count` of them."""
     s0, s1 = stokes[:2]
     if count == 1:
         return (0.5 * s0,)
@@ -47,22 +42,13 @@ def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
 
 
 def all_four(carried: Carried) -> tuple[Any, Any, Any, Any]:
-    """Return carried light with plain zeros for what is left out.
-
-    >>> all_four((0.25, -0.5))
-    (0.25, -0.5, 0.0, 0.0)
-    """
+    """Return carried light with plain zeros for what is left out."""
     weak, s1, s2, s3 = (*carried, 0.0, 0.0, 0.0)[:4]
     return weak, s1, s2, s3
 
 
 def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
-    """Return the first `count` components of carried light.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> leaving(FLOAT, (0.25, -0.5, 0.1, 0.0), 2), leaving(FLOAT, (0.25, -0.5), 1)
-    ((0.25, -0.5), (0.5,))
-    """
+    """Return the first `count` components of carried light."""
     if count > 1 or len(carried) == 1:
         return carried[:count]
     return (carried[0] + 0.5 * xp.absolute(carried[1]),)
@@ -72,10 +58,6 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     """Return light whose S1, S2, S3 are shortened where roundings made them longer than S0.
 
     Matrices of one's own may make unphysical light, which stays as it is.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> at_most_polarised(FLOAT, (0.0, 1.0, 1e-8, 0.0))
-    (2.5000000000000003e-17, 1.0, 1e-08, 0.0)
     """
     if len(carried) == 1:
         return carried
@@ -92,12 +74,7 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 
 
 def stokes_of(xp: Primitives, carried: Carried) -> Components:
-    """Return the Stokes components of carried light; those that are left out are 0.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> stokes_of(FLOAT, (0.25, -0.5, 0.0, 0.0))
-    (1.0, -0.5, 0.0, 0.0)
-    """
+    """Return the Stokes components of carried light; those that are left out are 0."""
     weak, s1, s2, s3 = all_four(carried)
     return (2.0 * weak if len(carried) == 1 else 2.0 * weak + xp.absolute(s1)), s1, s2, s3
 
@@ -111,12 +88,7 @@ def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
 
 
 def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
-    """Return two lights together, incoherently.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> add(FLOAT, (0.0, 1.0, 0.0, 0.0), (0.0, -1.0, 0.0, 0.5))
-    (1.0, 0.0, 0.0, 0.5)
-    """
+    """Return two lights together, incoherently."""
     if len(first) == len(second) == 1:
         return (first[0] + second[0],)
     x1, y1 = along_axes(xp, first)
@@ -155,24 +127,14 @@ def unit_light(part: int, count: int) -> Carried:
 
 
 def parts_of(xp: Primitives, carried: Carried, count: int) -> Parts:
-    """Return the parts of carried light, as many as a count of components has.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> parts_of(FLOAT, (0.25, -0.5, 0.1, 0.0), 3), parts_of(FLOAT, (0.25, -0.5), 1)
-    ((0.25, 0.75, 0.1), (1.0,))
-    """
+    """Return the parts of carried light, as many as a count of components has."""
     if count == 1:
         return (2.0 * leaving(xp, carried, 1)[0],)
     return *along_axes(xp, carried), *all_four(carried)[2:count]
 
 
 def light_of(xp: Primitives, parts: Parts) -> Carried:
-    """Return carried light of these parts.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> light_of(FLOAT, (0.25, 0.75, 0.1))
-    (0.25, -0.5, 0.1)
-    """
+    """Return carried light of these parts."""
     if len(parts) == 1:
         return (0.5 * parts[0],)
     x, y = parts[:2]

@@ -93,14 +93,7 @@ class StokesCarrier(Carrier):
 
 
 class MatrixCarrier(Carrier):
-    """Carries columns of Mueller matrices: every element is its matrix, and nothing else.
-
-    >>> from optipath.kernels.carriers.structures import BLOCK
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> carrier = MatrixCarrier(FLOAT)
-    >>> carrier.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), carrier.emit((0.0, 1.0, 0.0, 0.0)))
-    (0.125, 0.375, 0.0, 0.0)
-    """
+    """Carries columns of Mueller matrices: every element is its matrix, and nothing else."""
 
     def emit(self, stokes: Components, count: int = 4) -> Components:
         del count  # All four, whatever is asked for.
@@ -145,16 +138,7 @@ JonesState: TypeAlias = tuple[Columns, Any]
 
 
 class JonesCarrier(Carrier):
-    """Carries light as two Jones columns, with an integer exponent.
-
-    >>> from optipath.kernels.carriers.structures import SCALE
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> carrier = JonesCarrier(FLOAT)
-    >>> light = carrier.act(SCALE, (0.25,), carrier.emit((1.0, 0.0, 0.0, 1.0)))
-    >>> stokes, exponent = carrier.read(light)
-    >>> [round(x * 2.0**exponent, 12) for x in stokes]
-    [0.25, 0.0, 0.0, 0.25]
-    """
+    """Carries light as two Jones columns, with an integer exponent."""
 
     def __init__(self, xp: Primitives) -> None:
         super().__init__(xp)
@@ -238,16 +222,6 @@ class ScaledCarrier(Carrier):
 
     After every element the light is scaled to near 1 by an integer power of two, and DoP rounded
     beyond 1 is reset.
-
-    >>> from optipath.kernels.carriers.structures import SCALE
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> carrier = ScaledCarrier(FLOAT)
-    >>> state = carrier.emit((1.0, 0.0, 0.0, 0.0))
-    >>> for _ in range(4):
-    ...     state = carrier.act(SCALE, (1e-300,), state)
-    >>> _, exponent = carrier.read(state)
-    >>> exponent
-    -3987
     """
 
     def emit(self, stokes: Components, count: int = 4) -> ScaledState:

@@ -26,15 +26,7 @@ if TYPE_CHECKING:
 
 
 class IntensityCarrier(Carrier):
-    """Carries intensities over one denominator, which is divided by at the very end.
-
-    >>> from optipath.kernels.carriers.structures import BLOCK
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> carrier = IntensityCarrier(FLOAT)
-    >>> light = carrier.emit((1.0, 0.0, 0.0, 0.0), 1)
-    >>> carrier.read(carrier.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), light, 1), 1)
-    ((0.375, 0.0, 0.0, 0.0), 0)
-    """
+    """Carries intensities over one denominator, which is divided by at the very end."""
 
     def __init__(self, xp: Primitives, least: float = 0.0) -> None:
         super().__init__(xp)
@@ -77,23 +69,13 @@ class Boosts(NamedTuple):
 
 
 def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
-    """Return the boosts with one more.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> boosted(FLOAT, Boosts(0.5), 0.25)
-    Boosts(most=0.5, more=1.25, less=0.75)
-    """
+    """Return the boosts with one more."""
     most, other = xp.maximum(boosts.most, t), xp.minimum(boosts.most, t)
     return Boosts(most, boosts.more * (1.0 + other), boosts.less * (1.0 - other))
 
 
 def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
-    """Return the least and the largest ratio of the true intensity to that of no polarisation.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> ratio_bounds(FLOAT, Boosts(0.5, 1.5, 0.5))
-    (0.75, 1.25)
-    """
+    """Return the least and the largest ratio of the true intensity to that of no polarisation."""
     most, more, less = boosts
     upper = 0.5 * ((1.0 + most) * more + (1.0 - most) * less)
     opposed = 0.5 * ((1.0 + most) * less + (1.0 - most) * more)
@@ -103,11 +85,7 @@ def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
 
 
 def dop_bound(boosts: Boosts) -> Any:
-    """Return the largest degree of polarisation that boosts can give, or add up to.
-
-    >>> dop_bound(Boosts(0.5, 1.5, 0.5))
-    0.8
-    """
+    """Return the largest degree of polarisation that boosts can give, or add up to."""
     more, less = (1.0 + boosts.most) * boosts.more, (1.0 - boosts.most) * boosts.less
     return (more - less) / (more + less)
 
@@ -117,10 +95,6 @@ def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
 
     As a share of the true intensity, or of that of the model, whichever is larger. What any
     model gives that drops components lies between the bounds, too.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> largest_error(FLOAT, 0.5, 1.25, "scalar"), largest_error(FLOAT, 0.5, 1.25, "sp")
-    (1.0, 1.5)
     """
     there = lower > 0.0
     lower = xp.where(there, lower, 1.0)
@@ -143,13 +117,6 @@ class BoundsCarrier(Carrier):
 
     Read are that intensity, the least and the largest ratio of the true one to it, and the largest
     DoP.
-
-    >>> from optipath.kernels.carriers.structures import BLOCK
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> carrier, half = BoundsCarrier(FLOAT, slack=0.0), (0.75, 0.25, 0.25, 0.0, 0.0)
-    >>> light = carrier.act(BLOCK, half, carrier.emit((1.0, 0.0, 0.0, 0.0)))
-    >>> carrier.read(carrier.act(BLOCK, half, light))
-    ((0.25, 0.75, 1.25, 0.8), 0)
     """
 
     def __init__(self, xp: Primitives, slack: Any = 2.0**-44) -> None:

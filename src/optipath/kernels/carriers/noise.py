@@ -42,17 +42,7 @@ class Noisy(NamedTuple):
 
 
 class NoiseCarrier(Carrier):
-    """Carries light with its roundings; what is read is S0 and the noise.
-
-    >>> from optipath.kernels.carriers.structures import FULL
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> carrier = NoiseCarrier(FLOAT, 2.0**-52)
-    >>> light = carrier.emit((1.0, 0.0, 1.0, 0.0))
-    >>> crossed = 0.5, 0.0, -0.5, 0.0, *[0.0] * 4, -0.5, 0.0, 0.5, *[0.0] * 5
-    >>> (intensity, noise, _, _), exponent = carrier.read(carrier.act(FULL, crossed, light))
-    >>> intensity, noise * 2.0**exponent / 2.0**-52
-    (0.0, 1.0)
-    """
+    """Carries light with its roundings; what is read is S0 and the noise."""
 
     def __init__(self, xp: Primitives, eps: float) -> None:
         super().__init__(xp)

@@ -67,11 +67,7 @@ class Structure:
     unpolarising: Callable[[Numbers], Numbers] | None = None
 
     def known_rows(self, numbers: Sequence[float | None]) -> tuple[tuple[float | None, ...], ...]:
-        """Return what is known of a matrix, for what is known of its numbers.
-
-        >>> BLOCK.known_rows((None, None, None, None, 0.0))[2]
-        (0.0, 0.0, None, 0.0)
-        """
+        """Return what is known of a matrix, for what is known of its numbers."""
         several = numbers or (None,) * len(self.identity)
         # What depends on a number that is not known comes to NaN.
         rows = self.rows(NUMPY, [math.nan if number is None else number for number in several])
@@ -120,20 +116,12 @@ def _block_jones(xp: Primitives, numbers: Numbers, columns: Columns) -> Columns:
 
 
 def in_all(powers: Intensities) -> Intensities:
-    """Return the total over the denominator.
-
-    >>> in_all((1.0, 3.0, 2.0)), in_all((4.0, 2.0))
-    ((4.0, 2.0), (4.0, 2.0))
-    """
+    """Return the total over the denominator."""
     return (powers[0] + powers[1], powers[2]) if len(powers) == 3 else powers
 
 
 def along_x_and_y(powers: Intensities) -> tuple[Any, Any, Any]:
-    """Return what is along x, what is along y, and the denominator.
-
-    >>> along_x_and_y((4.0, 1.0))
-    (2.0, 2.0, 1.0)
-    """
+    """Return what is along x, what is along y, and the denominator."""
     if len(powers) == 3:
         return powers[0], powers[1], powers[2]
     half = 0.5 * powers[0]
@@ -327,11 +315,6 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
 
     By elimination without pivots, which a positive matrix needs none of (Higham, Accuracy and
     Stability of Numerical Algorithms, sec. 10.1): right but for a few roundings of M00.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> mirror, turned_over = np.diag([1.0, 1.0, -1.0, -1.0]), np.diag([1.0, 1.0, 1.0, -1.0])
-    >>> [bool(is_physical(FLOAT, m.ravel().tolist(), 1e-14)) for m in (mirror, turned_over)]
-    [True, False]
     """
     real, imaginary = (
         [[_sum(numbers, *places) for places in row] for row in part] for part in _FOUR_TIMES

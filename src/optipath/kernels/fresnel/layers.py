@@ -9,8 +9,8 @@ from operator import add
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optipath.kernels.carriers.structures import grey_block
-from optipath.kernels.fresnel.absorbing import interference
 from optipath.kernels.fresnel.boundary import squared_along_normal
+from optipath.kernels.fresnel.stable import interference
 from optipath.kernels.linear_solve import Elimination, is_zero
 from optipath.kernels.vectors import brought_near_one, complex_root, from_within
 

@@ -1,4 +1,10 @@
-"""Fresnel's equations that keep their digits: products and sums of non-negative terms."""
+"""Fresnel's equations that keep their digits: products and sums of non-negative terms.
+
+Of an arriving and a reflected wave in an absorbing medium each carries power, and the two
+together carry more or less by their interference: what is reflected and what is let through do
+not add up to 1 there (Born & Wolf, Principles of Optics, sec. 14; S. J. Byrnes, "Multilayer
+optical calculations", arXiv:1603.02720).
+"""
 
 from __future__ import annotations
 
@@ -7,8 +13,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from optipath.kernels.fresnel.boundary import (
     Across,
     Boundary,
+    InhomogeneousBoundary,
     absorbing_boundary,
+    boundary_from_behind,
     denser_boundary,
+    inhomogeneous_boundary,
     lossless_boundary,
 )
 from optipath.kernels.vectors import hypotenuse
@@ -16,8 +25,7 @@ from optipath.kernels.vectors import hypotenuse
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels.fresnel.boundary import InhomogeneousBoundary
-    from optipath.kernels.primitives import Primitives
+    from optipath.kernels.primitives import KernelFunction, Primitives
 
 
 _LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120
@@ -185,3 +193,140 @@ def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
         return powers, (along.z + along.ca, along.cb), behind, q
 
     return transmitted
+
+
+def _reflected_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    """Make ``InhomogeneousBoundary -> (Fs, Fp, B, C, S)``.
+
+    With g1 and g2 along the normal, y along the face and D = m2^2 - m1^2: r_s = -D /
+    (g1 + g2)^2 and r_p / r_s = (y^2 - g1 g2) / (y^2 + g1 g2), as in `stable_reflection`, where
+    g1 is real. From behind, all five numbers are the same.
+    """
+    where = xp.where
+
+    def reflect(at: InhomogeneousBoundary) -> tuple[Any, ...]:
+        _, entering, small = _powers(where, at)
+        Fs = where(entering < 0.6, 1.0 - entering, small)
+        return in_plane(where, Fs, slant_of(where, at), at.c)
+
+    return reflect
+
+
+def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any, Any]:
+    """Return P = |g1 + g2|^2, 1 in place of 0, 1 - Fs, and Fs where it is small."""
+    return through_and_back(where, *at.squares, at.D, at.v)
+
+
+def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
+    """Return how the polarisations differ, with g1 g2 / n1 in place of c g."""
+    z = at.n1 * (at.s * at.s)
+    re, im = at.c * at.a - at.e * at.b, at.c * at.b + at.e * at.a
+    z2, g2 = z * z, (at.c * at.c + at.e * at.e) * at.squared
+    # Where it cancels, next to a surface plasmon, it is a sum of squares.
+    q = where(re < 0.0, (z + re) * (z + re) + im * im, (z2 + g2) + 2.0 * z * re)
+    return Slant(z, re, im, z2, g2, q)
+
+
+def _transmitted_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    """Make ``InhomogeneousBoundary -> (Ts, Tp, B, C, S)``.
+
+    It is the power that is carried behind over that which arrives, of the arriving wave alone:
+    Ts = 4 |g1|^2 Re g2 / (Re g1 |g1 + g2|^2), Tp / Ts = (|g2|^2 + y^2) |m1|^4 /
+    ((|g1|^2 + y^2) |y^2 + g1 g2|^2), and t_s / t_p = (y^2 + g1 g2) / (m1 m2) (S. J. Byrnes,
+    arXiv:1603.02720, where Tp = |t_p|^2 Re(m2 conj(cos2)) / Re(m1 conj(cos1))).
+    """
+    where, sqrt, length = xp.where, xp.sqrt, hypotenuse(xp)
+
+    def transmitted(at: InhomogeneousBoundary) -> tuple[Any, ...]:
+        P, entering, small = _powers(where, at)
+        Fs = where(entering < 0.6, 1.0 - entering, small)
+        # Where no wave arrives, none is let through.
+        arrives = at.c > 0.0
+        more = where(arrives, at.e * (at.e / where(arrives, at.c, 1.0)), 0.0)
+        direct = (entering < 0.6) | (at.fades > 0.0)
+        Ts = where(direct, 4.0 * (at.p + at.n1 * more) * at.a * (1.0 / P), 1.0 - small)
+        along = slant_of(where, at)
+        _, q = is_there(where, along.q)
+        behind = at.squared + at.n1 * along.z
+        kappa2 = at.kappa * at.kappa
+        # (|g1|^2 + y^2) / n1^2 = 1 - kappa^2 + 2 e^2, and e is at least kappa.
+        before = 1.0 + (at.e * at.e + (at.e - at.kappa) * (at.e + at.kappa))
+        Tp = Ts * (behind / q) * ((1.0 + kappa2) * (1.0 + kappa2) / before)
+        apart = 4.0 * at.fades / P * (at.b - at.fades * (behind / (at.n1 * at.n1) / before))
+        B = 0.0 - 2.0 * (Fs + apart) / q * (at.s * at.s) * (at.c + more) * at.a * at.n1
+        share = Ts * sqrt(behind / q) / sqrt(q) * sqrt((1.0 + kappa2) / before)
+        size = length(at.n, at.k)
+        n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
+        re, im = along.z + along.ca, along.cb
+        C = share * (re * n + im * k + at.kappa * (im * n - re * k))
+        of_second, of_first = phases_through(where, at, n, k)
+        S = share * at.n1 * (at.s * at.s) * of_second + share * (at.s * at.s) * size * of_first
+        absorbs = (at.k > 0.0) | (at.kappa > 0.0)
+        C = where(absorbs, C, Ts * at.n / where(re > 0.0, re, 1.0))
+        # Adding 0 turns -0 into 0.
+        return Ts, Tp, B, C, where(absorbs, S, 0.0) + 0.0
+
+    return transmitted
+
+
+inhomogeneous_reflection = Across(inhomogeneous_boundary, _reflected_within)
+inhomogeneous_transmission = Across(inhomogeneous_boundary, _transmitted_within)
+transmission_from_behind = Across(boundary_from_behind, _transmitted_within)
+"""Kernels of ``(n1, k1, n, k, [n0,] cos, sin)``."""
+
+
+def phases_through(
+    where: Callable[..., Any], at: InhomogeneousBoundary, n: Any, k: Any
+) -> tuple[Any, Any]:
+    """Return the two parts of Im((y^2 + g1 g2) conj(m1 m2)) / y^2, without its difference.
+
+    From g - m = -y^2 / (g + m) on both sides, (y^2 + g1 g2 - m1 m2) / y^2 is
+    1 - g1 / (g2 + m2) - m2 / (g1 + m1); the first part, over n1 |m2|, is that of the first two
+    terms, the second, over |m2|^2, that of the last.
+    """
+    kappa = at.kappa
+    re, im = at.a + at.n, at.b + at.k
+    sum2 = re * re + im * im
+    sum2 = where(sum2 > 0.0, sum2, 1.0)
+    alpha, beta = n * re - k * im, n * im + k * re
+    real = n - (at.c * at.n1 * alpha + at.e * at.n1 * beta) / sum2
+    imaginary = (at.c * at.n1 * beta - at.e * at.n1 * alpha) / sum2 - k
+    re, im = 1.0 + at.c, at.e + kappa
+    last = (im + kappa * re) / (re * re + im * im)
+    return imaginary - kappa * real, last
+
+
+def interference(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, n, k, n0, cos, sin) -> (Is, Ip, Is', Ip')`` with 1 = R + T + I.
+
+    The last two are those of light from behind. In a medium that absorbs, what a wave that
+    arrives and one that is reflected carry together is not the sum of theirs: a flux
+    Re(w1 (1 - r)(1 + r*)) is Re(w1) (1 - |r|^2) + 2 Im(w1) Im(r), with r = (w1 - w2) / (w1 + w2),
+    w = g for s and w = g / m^2 for p (Byrnes, arXiv:1603.02720). So I, which may have either sign,
+    is 4 (Im w1 / Re w1) (Re w1 Im w2 - Re w2 Im w1) / |w1 + w2|^2. With z = (n0 sin)^2 and
+    G = |g|^2, w for p goes as Re(g) (G + z) + i Im(g) (z - G).
+    """
+    boundary, shares = inhomogeneous_boundary(xp), _shares(xp)
+
+    def both(*argument: Any) -> tuple[Any, ...]:
+        at = boundary(*argument)
+        return *shares(at), *shares(at.from_behind(xp.where))
+
+    return both
+
+
+def _shares(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, Any]]:
+    where = xp.where
+
+    def shares(at: InhomogeneousBoundary) -> tuple[Any, Any]:
+        P, q, n2 = sum_squared(at), slant_of(where, at).q, at.n1 * at.n1
+        z, G1, G2 = n2 * (at.s * at.s), at.p * at.p + at.fades * at.fades, at.squared
+        # Where no wave arrives there is no light.
+        there = (at.p > 0.0) & (P > 0.0) & (q * n2 > 0.0)
+        share = where(there, 4.0 * (at.fades / where(there, at.p * P, 1.0)), 0.0)
+        of_s = at.p * at.b - at.a * at.fades
+        of_p = at.p * (G1 + z) * (at.b * (z - G2)) - at.a * (G2 + z) * (at.fades * (z - G1))
+        of_p = of_p * ((z - G1) / where(there, (G1 + z) * q * n2, 1.0))
+        return share * of_s, share * of_p
+
+    return shares

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.fresnel.absorbing import phases_through, slant_of
 from optipath.kernels.fresnel.boundary import (
     Across,
     boundary_from_behind,
     inhomogeneous_boundary,
 )
-from optipath.kernels.fresnel.stable import sum_squared
+from optipath.kernels.fresnel.stable import phases_through, slant_of, sum_squared
 from optipath.kernels.vectors import complex_root, hypotenuse
 
 if TYPE_CHECKING:

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.carriers.structures import BLOCK
 from optipath.kernels.double_double import DoubleDouble, twice
-from optipath.kernels.fresnel.absorbing import slant_of
 from optipath.kernels.fresnel.boundary import (
     Boundary,
     absorbing_wave,
@@ -19,7 +18,7 @@ from optipath.kernels.fresnel.boundary import (
     inhomogeneous_boundary,
     lossless_boundary,
 )
-from optipath.kernels.fresnel.stable import slant, sum_squared
+from optipath.kernels.fresnel.stable import slant, slant_of, sum_squared
 from optipath.kernels.vertex_chain import Event
 
 if TYPE_CHECKING:
@@ -144,12 +143,7 @@ class AtAngle:
 
 
 def numbers_at(xp: Primitives, cos: Any, numbers: Sequence[Any]) -> list[Any]:
-    """Return numbers where there is an angle, and NaN elsewhere.
-
-    >>> from optipath.kernels.primitives import FLOAT
-    >>> numbers_at(FLOAT, nan, [0.5, 1.0])
-    [nan, nan]
-    """
+    """Return numbers where there is an angle, and NaN elsewhere."""
     is_angle = cos == cos  # noqa: PLR0124 - NaN alone is not
     return [xp.where(is_angle, number, nan) for number in numbers]
 

@@ -12,7 +12,7 @@ from optipath.elements.boundary import BoundaryElement, angles_of, operands_of
 from optipath.elements.ends import Detector, Terminal
 from optipath.elements.interface import Mirror
 from optipath.elements.medium import Medium
-from optipath.elements.rotators import FaradayRotator, Rotator
+from optipath.elements.retarders import FaradayRotator, Rotator
 from optipath.elements.splitters import Splitter
 from optipath.elements.vertex_chain import VerticesByAngles, vertices_from_angles
 from optipath.elements.vertices import ChainVertex
