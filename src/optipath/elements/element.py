@@ -233,17 +233,7 @@ class Element(Chainable):
         return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
 
     def agreements(self, owner: str) -> Iterable[Agreement]:
-        """Return what must fit of the values, known or given when the path runs.
-
-        Parameters
-        ----------
-        owner : str
-            What sentences call the element.
-
-        Returns
-        -------
-        iterable of Agreement
-        """
+        """Return what must fit of the values, known or given when the path runs."""
         del owner
         return ()
 
@@ -279,7 +269,6 @@ class Element(Chainable):
         Returns
         -------
         list of str
-            Empty where they fit together.
         """
         each = list(frames.values())
         if self.straight and not all(same_frame(frame, each[0]) for frame in each[1:]):
@@ -294,20 +283,7 @@ class Element(Chainable):
     def turn_from(self, before: Element) -> Operation | None:
         """Return the turn of light from one self-placed element to another, which this is.
 
-        Parameters
-        ----------
-        before : Element
-            The one that a link leads from; `fault_behind` finds no fault with it.
-
-        Returns
-        -------
-        Operation or None
-            From the frame in which light leaves there to the one it enters here; None for none.
-
-        Raises
-        ------
-        PathError
-            If the class does not say it.
+        It is from the frame in which light leaves there to the one it enters here; None for none.
         """
         raise PathError(
             f"element class {type(self).__name__} does not say how light from {before.kind} is "
@@ -433,20 +409,7 @@ class Element(Chainable):
     def port_back(cls, port: str) -> str:
         """Return the port by which light leaves, on its way back, where it came in by one; or so.
 
-        Parameters
-        ----------
-        port : str
-            One of the ports.
-
-        Returns
-        -------
-        str
-            The other one; empty where the class has several and does not say.
-
-        Raises
-        ------
-        PathError
-            If there is no such port.
+        It is empty where the class has several and does not say.
 
         Examples
         --------

@@ -227,8 +227,7 @@ def fresnel_amplitudes(
     index : array_like, real or complex, or Material
         The index n + ik of the medium behind, n and k not negative.
     cos_incidence, sin_incidence : array_like
-        Of the angle of incidence. Both are taken, so that grazing and normal incidence keep
-        their digits.
+        As for `fresnel_reflection`.
     outside : array_like or Material, optional
         The index n + ik of the medium in front, n above 0. Where it absorbs, the incidence is
         the real angle of the planes of constant phase, as `Interface` takes it.
@@ -241,10 +240,8 @@ def fresnel_amplitudes(
 
     Raises
     ------
-    ValueFault
-        If a value is not allowed, or light arrives at a right angle out of a medium that absorbs.
-    ShapeError
-        If the values do not broadcast.
+    ValueFault, ShapeError
+        As `refraction_angle` does.
 
     Examples
     --------
@@ -297,11 +294,8 @@ def effective_index(
     ----------
     index : array_like, real or complex, or Material
         The index n + ik of the medium behind, n and k not negative.
-    incidence : array_like or CosSin
-        The angle of incidence in radians, 0 to pi/2.
-    outside : array_like or Material, optional
-        The index n + ik of the medium in front, n above 0. Where it absorbs, the incidence is
-        the real angle, too, between faces that are parallel.
+    incidence, outside
+        As `refraction_angle` takes them; `outside` may be a Material as well.
 
     Returns
     -------
@@ -311,10 +305,8 @@ def effective_index(
 
     Raises
     ------
-    ValueFault
-        If a value is not allowed, or light arrives at a right angle out of a medium that absorbs.
-    ShapeError
-        If the values do not broadcast.
+    ValueFault, ShapeError
+        As `refraction_angle` does.
 
     Examples
     --------
