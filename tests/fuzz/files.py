@@ -9,7 +9,7 @@ from tests.fuzz.attack import Attack, check_light
 from tests.fuzz.odd_values import toml_value
 
 import optipath as op
-from optipath.surfaces.experiment_files import load_experiment
+from optipath.surfaces.reproduction import load_experiment
 
 _CURVES = [
     'wavelengths = [400, 500, 700], unit = "nm", n = [1.5, 1.0, 0.3], k = [1.9, 1.8, 2.9]',

@@ -23,17 +23,17 @@ def test_the_largest_is_known_to_three_standard_errors_and_what_is_not_known_lea
     np.testing.assert_allclose([found.value, found.least, found.most], [0.2, 0.14, 0.26])
     # One of many that chance has made large is not above.
     noise = np.random.default_rng(0).normal(0.0, 0.01, (200, 2000))
-    assert not any(LargestOf.of(each, np.full(2000, 0.01)).is_above(0.0) for each in noise)
-    assert LargestOf.of([*noise[0], 0.06], np.full(2001, 0.01)).is_above(0.0)
+    assert all(LargestOf.of(each, np.full(2000, 0.01)).least == 0.0 for each in noise)
+    assert LargestOf.of([*noise[0], 0.06], np.full(2001, 0.01)).within(0.0) is False
     found = LargestOf.of([np.nan, 0.3, 0.1], [0.0, 0.01, 0.01])
     assert (found.value, found.error, found.most) == (0.3, 0.01, np.inf)
-    assert found.is_above(0.26)
+    assert found.within(0.26) is False
     # So does what is noisier.
     found = LargestOf.of([0.1, 0.2], [0.1, 0.001])
-    assert (found.value, found.is_below(0.3), found.is_above(0.19)) == (0.2, False, True)
+    assert (found.value, found.within(0.3), found.within(0.19)) == (0.2, None, False)
     found, none = LargestOf.of([0.01, 0.02], [np.nan, 0.001]), LargestOf.of([], [])
-    assert (found.is_below(1e6), str(found)) == (False, "1.7 % or more")
-    assert (none.is_below(1.0), none.is_above(0.0)) == (False, False)
+    assert (found.within(1e6), str(found)) == (None, "1.7 % or more")
+    assert none.within(1.0) is none.within(0.0) is None
 
 
 def test_smooth_exit_is_the_product_of_three_boundaries_in_one_plane_and_0_of_one():

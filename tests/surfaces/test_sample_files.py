@@ -314,7 +314,7 @@ def test_no_other_file_can_be_named_and_ones_that_are_not_there_are_told(folder,
 @rows(
     "name, more, sentence",
     [
-        ("own.npy", "size = -1", "layers[0].heights 'own.npy': size must be a positive number"),
+        ("own.npy", "size = -1", "layers[0].heights 'own.npy': size must be a number of 1e-30"),
         ("own.npy", "", f"layers[0]: {ROUGH}"),
         ("own.npy", "size = 3\nalpha = 0.1", f"layers[0]: {ROUGH}"),
         ("own.npy", 'size = 3\nperiodic = "yes"', "layers[0]: 'periodic' must be true or false"),

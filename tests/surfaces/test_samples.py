@@ -147,7 +147,7 @@ ABSORBS = "which absorbs; give a real index of refraction"
             for each in ((0.5, 2.1), np.array([1.5, 1.6]), op.Material(np.array([1.5, 1.6])))
         ),
         *((each, "layers is ", "such as [(1.5, 0.1)]") for each in ([], None)),
-        *(([(1.5, 0.1), each], "layers[1] is ", "such as (1.5, 0.1)") for each in (1.5, (1.5,))),
+        *(([(1.5, 0.1), each], "layers[1] is ", "roughness: (1.5, 0.1)") for each in (1.5, (1.5,))),
         *(
             ([(each, 0.1), (2.4, 0.1)], FIRST, ABSORBS)
             for each in (1.5 + 1e-9j, "1.5+0.1j", op.Material(1.5, 0.1))

@@ -15,19 +15,17 @@ from hypothesis import strategies as st
 import optipath as op
 from optipath import surfaces
 from optipath.surfaces.height_field import HeightField
-from optipath.surfaces.walk import meshes as packed
-from optipath.surfaces.walk.meshes import SHIFT, meshes_of, pyramid_of
+from optipath.surfaces.walk import layout
+from optipath.surfaces.walk.meshes import meshes_of, packed_meshes, pyramid_of
 from tables import rows
 from uncompiled import uncompiled
 
 pytest.importorskip("numba")
 
-from optipath.surfaces.walk import layout
 from optipath.surfaces.walk import mesh_hit as entry_walk
 from optipath.surfaces.walk import mesh_hit as walk
 from optipath.surfaces.walk.beam import beam_of
 from optipath.surfaces.walk.facets import LOWER, NO_FACET, UPPER, uniform
-from optipath.surfaces.walk.meshes import packed_meshes
 
 
 def test_meshes_are_found_by_their_places_and_apart_by_two_deviations_of_the_rougher(rng):
@@ -35,26 +33,26 @@ def test_meshes_are_found_by_their_places_and_apart_by_two_deviations_of_the_rou
     given = [HeightField(rng.normal(size=shape), (3.0, 7.0), whole) for shape, whole in shapes]
     meshes = packed_meshes(given)
     for place, field in enumerate(given):
-        wholes = meshes.wholes[packed.WHOLES * place :][: packed.WHOLES]
+        wholes = meshes.wholes[layout.WHOLES * place :][: layout.WHOLES]
         across, down = field.cells
-        assert wholes[: packed.PYRAMID].tolist()[1:3] == [across, down]
-        assert wholes[packed.PERIODIC] == field.periodic
-        first = wholes[packed.HEIGHTS]
+        assert wholes[: layout.PYRAMID].tolist()[1:3] == [across, down]
+        assert wholes[layout.PERIODIC] == field.periodic
+        first = wholes[layout.HEIGHTS]
         vertices = meshes.heights[first:][: (across + 1) * (down + 1)].reshape(down + 1, across + 1)
         assert np.ptp(vertices - field.vertices()) < 1e-14
         levels = pyramid_of(vertices)
-        assert wholes[packed.LEVELS] == len(levels) - 1
+        assert wholes[layout.LEVELS] == len(levels) - 1
         for level, values in enumerate(levels[1:], 1):
-            at = wholes[packed.PYRAMID + level]
+            at = wholes[layout.PYRAMID + level]
             assert meshes.extremes[at:][: values.size].tolist() == values.ravel().tolist()
-    numbers = meshes.numbers.reshape(-1, packed.NUMBERS)
-    gaps = numbers[:-1, packed.LOW] - numbers[1:, packed.HIGH]
+    numbers = meshes.numbers.reshape(-1, layout.NUMBERS)
+    gaps = numbers[:-1, layout.LOW] - numbers[1:, layout.HIGH]
     deviations = [field.deviation for field in given]
     assert gaps == pytest.approx(2.0 * np.maximum(deviations[:-1], deviations[1:]), rel=1e-12)
-    assert np.all(numbers[:, packed.HIGH] >= numbers[:, packed.LOW])
+    assert np.all(numbers[:, layout.HIGH] >= numbers[:, layout.LOW])
     # Flat ones are apart too.
-    numbers = packed_meshes([HeightField.flat()] * 2).numbers.reshape(-1, packed.NUMBERS)
-    assert numbers[0, packed.LOW] > numbers[1, packed.HIGH]
+    numbers = packed_meshes([HeightField.flat()] * 2).numbers.reshape(-1, layout.NUMBERS)
+    assert numbers[0, layout.LOW] > numbers[1, layout.HIGH]
 
 
 @rows(
@@ -67,7 +65,7 @@ def test_extremes_are_those_of_all_corners_of_blocks_from_cells_to_one_of_all(ac
     assert (levels[0].shape, levels[-1].shape) == ((down, across, 2), (1, 1, 2))
     assert all(len(each) * each.shape[1] > 1 for each in levels[:-1])
     for level, found in enumerate(levels):
-        width = 1 << (SHIFT * level)
+        width = 1 << (layout.SHIFT * level)
         assert found.shape[:2] == (-(-down // width), -(-across // width))
         for line, column in np.ndindex(found.shape[:2]):
             part = vertices[line * width :, column * width :][: width + 1, : width + 1]

@@ -16,7 +16,7 @@ from optipath.errors import SurfaceError
 from optipath.materials.quantities import plain
 from optipath.paths.files.schema import Faults
 from optipath.surfaces import reproduction
-from optipath.surfaces.experiment_files import experiment_names, load_experiment
+from optipath.surfaces.reproduction import experiment_names, load_experiment
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

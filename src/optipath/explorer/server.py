@@ -12,7 +12,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
 from secrets import compare_digest, token_urlsafe
 from socketserver import TCPServer
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import OptipathError, ParameterError, printable
 
@@ -57,9 +57,6 @@ class PageServer(ThreadingHTTPServer):
         """Say nothing: whoever asked has hung up."""
         del request, client_address
 
-    def __enter__(self) -> Self:
-        return self
-
 
 LARGEST_BODY = 64 * 1024
 """How many bytes a request has at most behind its head."""
@@ -97,10 +94,6 @@ class PageHandler(BaseHTTPRequestHandler):
 
     def log_message(self, *_: Any) -> None:
         """Write no log: an address in it would hold the token."""
-
-    def handle_expect_100(self) -> bool:
-        """Promise nothing: whether what follows is read is told by the answer."""
-        return True
 
     def do_GET(self) -> None:
         """Answer with a file of the page, or with what there is."""
@@ -231,22 +224,16 @@ class PageFile(NamedTuple):
 @cache
 def page_files() -> dict[str, PageFile]:
     """Return the files by the name under which they are asked for."""
-    folder = files("optipath.explorer").joinpath("page")
     results = {}
-    for file in folder.iterdir():
-        kind = _TYPES.get("." + file.name.rpartition(".")[2])
-        if kind is not None:
+    for file in files("optipath.explorer").joinpath("page").iterdir():
+        if kind := _TYPES.get("." + file.name.rpartition(".")[2]):
             name = "" if file.name == "index.html" else f"page/{file.name}"
             results[name] = PageFile(kind, file.read_bytes())
     return results
 
 
 def read_json(argument: bytes) -> Any:
-    """Return what a JSON text says.
-
-    >>> read_json(b'{"preset": "malus"}')
-    {'preset': 'malus'}
-    """
+    """Return what a JSON text says."""
     try:
         return json.loads(argument.decode())
     except (ValueError, RecursionError) as error:

@@ -76,11 +76,7 @@ class RequestedState:
 def requested_state(
     argument: Any, allowed: Sequence[str], needed: Sequence[str] = ()
 ) -> RequestedState:
-    """Return what a request asks for.
-
-    >>> requested_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
-    {'angle': '30 deg'}
-    """
+    """Return what a request asks for."""
     readers = {name: _READERS[name] for name in ("preset", *allowed)}
     return RequestedState(**_parts("", argument, readers, ("preset", *needed)))
 
@@ -130,18 +126,18 @@ def _texts(name: str, argument: Any) -> dict[str, str]:
     return {key: _text(f"{name}.{shown(key)[1:-1]}", value) for key, value in argument.items()}
 
 
-def _words(known: Sequence[str] | None) -> Any:
-    def read(name: str, argument: Any) -> tuple[str, ...]:
-        if not isinstance(argument, list) or len(argument) > _MOST:
-            raise ParameterError(f"{name} must be a list of texts, not {_as_json(argument)}")
-        words = tuple(
-            dict.fromkeys(_text(f"{name}[{at}]", each) for at, each in enumerate(argument))
-        )
-        if known is not None and (faults := [s for w in words for s in unknown(name, w, known)]):
-            raise ParameterError(*faults)
-        return words
+def _words(name: str, argument: Any) -> tuple[str, ...]:
+    if not isinstance(argument, list) or len(argument) > _MOST:
+        raise ParameterError(f"{name} must be a list of texts, not {_as_json(argument)}")
+    words = [_text(f"{name}[{at}]", each) for at, each in enumerate(argument)]
+    return tuple(dict.fromkeys(words))
 
-    return read
+
+def _want(name: str, argument: Any) -> tuple[str, ...]:
+    words = _words(name, argument)
+    if faults := [sentence for word in words for sentence in unknown(name, word, WANTED)]:
+        raise ParameterError(*faults)
+    return words
 
 
 def _form(name: str, argument: Any) -> str:
@@ -158,7 +154,7 @@ def _count(name: str, argument: Any) -> int:
 
 
 def _curve(name: str, argument: Any) -> RequestedCurve:
-    readers = {"x": _text, "from": _text, "to": _text, "count": _count, "y": _words(None)}
+    readers = {"x": _text, "from": _text, "to": _text, "count": _count, "y": _words}
     return RequestedCurve(*_parts(name, argument, readers, [*readers]).values())
 
 
@@ -169,7 +165,7 @@ _READERS: dict[str, Any] = {
     "values": _texts,
     "detector": _text,
     "curve": _curve,
-    "want": _words(WANTED),
+    "want": _want,
     "form": _form,
 }
 
@@ -217,17 +213,16 @@ def read_state(presets: ExploredPresets, request: RequestedState) -> ReadState:
     """Return what the texts of the page stand for."""
     faults: list[str] = []
     explored, places = _opened(presets, request, faults)
-    cases = explored.path.cases
-    known = cases[request.case].values if request.case in cases else {}
+    case = explored.path.cases.get(request.case or "")
     arguments = {
         name: value
         for name, text in request.values.items()
         if (value := _value(explored, name, request.values, faults)) is not None
     }
     state = ReadState(request, explored, explored, places, {}, arguments)
-    known = {name: value for name, value in known.items() if name not in places}
+    known = {} if case is None else case.values
     try:
-        state = _placed(presets, state, known)
+        state = _placed(presets, state, {n: v for n, v in known.items() if n not in places})
     except OptipathError as error:
         faults += state.faults(error)
     if faults:
@@ -256,22 +251,14 @@ def _opened(
     if case is None and request.case is not None:
         wrong = unknown(f"case of '{request.preset}'", request.case, base.cases)
         faults += [Fault(sentence, subject="case") for sentence in wrong]
-    known = {} if case is None else case.values
-    places = {name: str(word) for name, word in known.items() if name in base.choices}
-    places |= _places(base.choices, request.places, faults)
-    return presets.explored(request.preset, places), places
-
-
-def _places(
-    choices: Mapping[str, Any], arguments: Mapping[str, str], faults: list[str]
-) -> dict[str, str]:
-    results = {}
-    for name, word in arguments.items():
+    known, choices = {} if case is None else case.values, base.choices
+    places = {name: str(word) for name, word in known.items() if name in choices}
+    for name, word in request.places.items():
         if wrong := unknown("choice", name, choices) or unknown(name, word, choices[name].behind):
             faults += [Fault(each, subject=name if name in choices else "") for each in wrong]
         else:
-            results[name] = word
-    return results
+            places[name] = word
+    return presets.explored(request.preset, places), places
 
 
 def _value(
@@ -290,9 +277,11 @@ def _value(
         if parameter.bound:
             faults.append(Fault(explored.plan.inputs.unknown(name), subject=name))
             return None
-        if is_material(parameter, text, explored.uses):
-            return _material(explored, name, text, arguments)
-        return single_text(explored, parameter, text)
+        if not is_material(parameter, text, explored.uses):
+            return single_text(explored, parameter, text)
+        k = extinction_with(explored.uses, name)
+        own = single_text(explored, known[k], arguments[k]) if k in arguments else None
+        return material_named(name, text, own)
     except OptipathError as error:
         faults += [each.but(subject=name) for each in error.faults]
         return None
@@ -306,30 +295,18 @@ def single_text(explored: ExploredPath, parameter: Parameter, text: str) -> Any:
     return value
 
 
-def _material(
-    explored: ExploredPath, name: str, text: str, arguments: Mapping[str, str]
-) -> Material:
-    k = extinction_with(explored.uses, name)
-    own = single_text(explored, explored.parameters[k], arguments[k]) if k in arguments else None
-    return material_named(name, text, own)
-
-
 def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]) -> ReadState:
     """Return the state with materials in their places, and looked at as a whole."""
     argument, explored, notes = dict(state.given), state.explored, []
     values = beside(explored.path, known, argument)
     if media := {name: m for name, m in values.items() if isinstance(m, Material)}:
-        within = from_materials(explored.path.graph, media)
-        stored = {*media, *within}
+        within, asked = from_materials(explored.path.graph, media), state.asked
         for name in within:
             values.pop(name, None)
             argument.pop(name, None)
-        messages = tuple(f"{name}={text}" for name, text in state.asked.values.items())
-        messages = (
-            state.asked.case or "",
-            *(each for each in messages if each.partition("=")[0] in stored),
-        )
-        explored = presets.explored(state.asked.preset, state.places, media, messages)
+        stored = {*media, *within}
+        texts = [f"{name}={text}" for name, text in asked.values.items() if name in stored]
+        explored = presets.explored(asked.preset, state.places, media, (asked.case or "", *texts))
         values = {name: value for name, value in values.items() if name not in media}
     name = WAVELENGTH.name
     if name in values and name not in explored.parameters:

@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from optipath.errors import Fault, OptipathError, ParameterError, collecting, shown, unknown
-from optipath.explorer.as_json import PRINTED, end_as_json, energy_as_flows, link_as_json
+from optipath.explorer.as_json import (
+    PRINTED,
+    end_as_json,
+    energy_as_flows,
+    link_as_json,
+    quantity_as_json,
+)
 from optipath.explorer.state import faults_as_json, single_text
 from optipath.light.quantities import QUANTITIES
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
@@ -38,7 +44,6 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
     explored, request = state.explored, state.asked
     lights = traced(state)
     results: dict[str, Any] = {
-        "faults": [],
         "notes": [*state.notes],
         "values": values_as_json(state),
         "detectors": {
@@ -112,24 +117,19 @@ def values_as_json(state: ReadState) -> dict[str, dict[str, Any]]:
     for name, parameter in state.explored.parameters.items():
         value = state.values.get(name, parameter.default)
         word = value if isinstance(value, str) else None
-        number = None
-        if word is not None:
-            number = parameter.words.get(word)
-        elif value is not None and np.ndim(value) == 0 and not np.iscomplexobj(value):
-            number = float(value)
+        number = _number(parameter, value)
         text = "" if value is None else parameter.text(_single(value))
         shown = None if number is None else in_unit(number, parameter.unit)
         results[name] = {"text": text, "number": shown, "unit": parameter.unit, "word": word}
     if state.base.offers_wavelength and WAVELENGTH.name not in results:
-        results[WAVELENGTH.name] = {
-            "text": "",
-            "number": None,
-            "unit": WAVELENGTH.unit,
-            "word": None,
-        }
-    if argument := state.materials:
-        results |= _materials(state, argument)
-    return results
+        results[WAVELENGTH.name] = _NO_VALUE | {"unit": WAVELENGTH.unit}
+    return results | _materials(state)
+
+
+def _number(parameter: Parameter, value: Any) -> float | None:
+    """Return the one real number that a value is, or a word stands for."""
+    number = np.asarray(parameter.words.get(value) if isinstance(value, str) else value)
+    return None if number.dtype.kind not in "biuf" or number.ndim else float(number)
 
 
 def _single(value: Any) -> Any:
@@ -138,26 +138,23 @@ def _single(value: Any) -> Any:
     return value.item() if is_number else value
 
 
-def _materials(state: ReadState, arguments: dict[str, Any]) -> dict[str, dict[str, Any]]:
+_NO_VALUE = {"text": "", "number": None, "unit": "", "word": None}
+
+
+def _materials(state: ReadState) -> dict[str, dict[str, Any]]:
     """Return the materials that are given, each with its n and k, and what k they stand for."""
     light = state.explored.parameters.get(WAVELENGTH.name)
     at = None if light is None else state.values.get(WAVELENGTH.name, light.default)
-    plain = {"number": None, "unit": "", "word": None}
-    results = {}
-    for name, label, material in materials_among(arguments):
+    results: dict[str, dict[str, Any]] = {}
+    for name, label, material in materials_among(state.given):
         message = material_as_json(label, material, at)
         text = state.asked.values[name].strip()
-        results[name] = {
-            **plain,
-            "text": text,
-            "material": label,
-            "n": message["n"],
-            "k": message["k"],
-        }
+        numbers = {"n": message["n"], "k": message["k"]}
+        results[name] = {**_NO_VALUE, "text": text, "material": label, **numbers}
         for k in from_materials(state.base.path.graph, {name: material}):
             number = message["k"] if isinstance(message["k"], float) else None
             text = "" if number is None else PRINTED.text(number)
-            results[k] = {**plain, "text": text, "number": number, "by": name}
+            results[k] = {**_NO_VALUE, "text": text, "number": number, "by": name}
     return results
 
 
@@ -212,8 +209,12 @@ def curve_grid(state: ReadState, request: RequestedCurve) -> SweepGrid:
     opened = explored.plan.inputs.open
     faults = [s for y in request.y for s in unknown("quantity", y, _NAMES)]
     faults += unknown("parameter of the curve", name, opened)
-    if not faults:
-        faults += _end_faults(state, opened[name], request)
+    for text in () if faults else (request.first, request.last):
+        if any(sign in text for sign in _SEVERAL) or text in opened[name].all_words:
+            faults.append(f"{shown(text)} is no end of a curve; give one number, with a unit")
+        else:
+            with collecting(faults):
+                single_text(explored, opened[name], text.strip())
     if faults:
         raise ParameterError(*(Fault.of(each).but(subject="curve") for each in faults))
     text = f"{request.first}:{request.last}:{request.count}"
@@ -224,26 +225,11 @@ def curve_grid(state: ReadState, request: RequestedCurve) -> SweepGrid:
     return SweepGrid((sweep_axis(explored.parameters, name, values),), fixed)
 
 
-def _end_faults(state: ReadState, parameter: Parameter, request: RequestedCurve) -> list[str]:
-    faults: list[str] = []
-    for text in (request.first, request.last):
-        if any(sign in text for sign in _SEVERAL) or text in parameter.all_words:
-            faults.append(f"{shown(text)} is no end of a curve; give one number, with a unit")
-            continue
-        with collecting(faults):
-            single_text(state.explored, parameter, text.strip())
-    return faults
-
-
 def _at(state: ReadState, axis: SweepAxis) -> float | None:
     """Return where the curve is now, in its unit; None where that is no number."""
     parameter = state.explored.parameters[axis.name]
-    value = state.values.get(axis.name, parameter.default)
-    value = parameter.words.get(value, value) if isinstance(value, str) else value
-    number = np.asarray(value)
-    if number.dtype.kind not in "iuf" or number.ndim:
-        return None
-    return in_unit(float(number), axis.unit)
+    number = _number(parameter, state.values.get(axis.name, parameter.default))
+    return None if number is None else in_unit(number, axis.unit)
 
 
 def _lines(
@@ -253,6 +239,5 @@ def _lines(
     lines = []
     for quantity in (_NAMES[name] for name in names):
         numbers = np.broadcast_to(np.asarray(quantity.shown_of(light), float), grid.shape)
-        messages = {"name": quantity.variable, "label": quantity.name, "unit": quantity.shown_unit}
-        lines.append({**messages, "values": plain(numbers)})
+        lines.append(quantity_as_json(quantity) | {"values": plain(numbers)})
     return lines

@@ -14,18 +14,8 @@ from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.facets import plane_at_facet
 from optipath.kernels.filters import align
 from optipath.kernels.primitives import NUMPY
+from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import BLOCK, MOST_PHOTONS, UNPOLARISED, beam_of
-from optipath.surfaces.walk.layout import (
-    AZIMUTH,
-    CARRIED,
-    END_K,
-    END_LIGHTS,
-    END_X,
-    ENDS,
-    EVENTS,
-    OUTCOME,
-    OUTCOME_NAMES,
-)
 from optipath.values.arrays import refuse_too_large
 from optipath.values.precision import Numbers, whole_number
 
@@ -75,11 +65,6 @@ def photon_ends(
     -------
     PhotonEnds
 
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-
     Examples
     --------
     >>> from optipath.surfaces.sample import Sample
@@ -87,17 +72,10 @@ def photon_ends(
     >>> print(found.directions.shape, found.stokes.shape, np.unique(found.ends))
     (1000, 3) (1000, 4) ['up']
     """
-    beam = beam_of(
-        sample,
-        incidence,
-        azimuth,
-        wavelength=wavelength,
-        stokes=stokes,
-        seed=seed,
-        most_events=most_events,
-        others=whole_number("photons", photons, 1, MOST_PHOTONS),
-    )
-    number = 16 * (ENDS + CARRIED * beam.lights)
+    faults = whole_number("photons", photons, 1, MOST_PHOTONS)
+    light = {"azimuth": azimuth, "wavelength": wavelength, "stokes": stokes}
+    beam = beam_of(sample, incidence, **light, seed=seed, most_events=most_events, others=faults)
+    number = 16 * (layout.ENDS + layout.CARRIED * beam.lights)
     refuse_too_large(
         (photons,), number, "give fewer photons", SurfaceError, "ends of {:.3g} photons"
     )
@@ -112,13 +90,13 @@ def _ends_of(beam: PhotonBeam, results: Numbers) -> PhotonEnds:
     """Return the ends of photons in frames that belong to their directions."""
     k, x, turns = turned_directions(beam, results)
     shape = len(results), *beam.indices.n.shape
-    lights = results[:, END_LIGHTS:].reshape(len(results), -1, CARRIED)
+    lights = results[:, layout.END_LIGHTS :].reshape(len(results), -1, layout.CARRIED)
     carried = tuple(lights[..., place] for place in range(4))
     rotation = [each[:, np.newaxis] for each in turns.T]
     stokes = stokes_of(NUMPY, ROTATION.action(NUMPY, rotation, carried, 4))
     return PhotonEnds(
-        ends=np.array(OUTCOME_NAMES)[results[:, OUTCOME].astype(int)],
-        events=results[:, EVENTS].astype(int),
+        ends=np.array(layout.OUTCOME_NAMES)[results[:, layout.OUTCOME].astype(int)],
+        events=results[:, layout.EVENTS].astype(int),
         directions=k,
         x=x,
         stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1).reshape(*shape, 4),
@@ -132,8 +110,10 @@ def turned_directions(beam: PhotonBeam, results: Numbers) -> tuple[Numbers, Numb
     On an isotropic sample as if all photons had come along x; turns (photons, 2) are those into
     the frames.
     """
-    back = -results[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(results))
-    k, old_x = (_turned(results[:, place : place + 3], back) for place in (END_K, END_X))
+    back = -results[:, layout.AZIMUTH] if beam.sample.isotropic else np.zeros(len(results))
+    k, old_x = (
+        _turned(results[:, place : place + 3], back) for place in (layout.END_K, layout.END_X)
+    )
     _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
     x, turns = (np.stack(np.broadcast_arrays(*each), axis=-1) for each in (x, turn))
     along = (k[:, 0] == 0.0) & (k[:, 1] == 0.0)

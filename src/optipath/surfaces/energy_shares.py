@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import PhotonWarning, shown
+from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import (
     BLOCK,
     MOST_PHOTONS,
@@ -20,18 +21,6 @@ from optipath.surfaces.walk.beam import (
     UNPOLARISED,
     beam_of,
     walked_in_order,
-)
-from optipath.surfaces.walk.layout import (
-    COUNT,
-    DOWN,
-    INTENSITY,
-    INTENSITY_SQUARED,
-    PRODUCT,
-    SCALAR,
-    SCALAR_SQUARED,
-    SIDEWAYS,
-    STUCK,
-    UP,
 )
 from optipath.values.angles import calls_up
 from optipath.values.precision import Numbers, real_number, whole_number
@@ -97,11 +86,6 @@ def energy(
     -------
     Energy
 
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-
     Warns
     -----
     PhotonWarning
@@ -118,18 +102,10 @@ def energy(
     >>> bool(0.001 < found.R_m < 0.005), bool(abs(found.scalar.R + found.scalar.T - 1.0) < 1e-12)
     (True, True)
     """
-    run, most = run_arguments(
-        sample,
-        incidence,
-        photons,
-        tolerance=tolerance,
-        threads=threads,
-        azimuth=azimuth,
-        wavelength=wavelength,
-        stokes=stokes,
-        seed=seed,
-        most_events=most_events,
-    )
+    options: dict[str, Any] = {"azimuth": azimuth, "wavelength": wavelength, "stokes": stokes}
+    options |= {"seed": seed, "most_events": most_events}
+    options |= {"tolerance": tolerance, "threads": threads}
+    run, most = run_arguments(sample, incidence, photons, **options)
     return walk_wanted(run, most, tolerance, progress)
 
 
@@ -187,16 +163,19 @@ class EnergyShares:
 
 
 _ONCE, _MORE, _ALL = slice(0, 1), slice(1, None), slice(None)
-_PARTS: dict[str, tuple[list[int], slice]] = {
-    "R_s": ([UP], _ONCE),
-    "R_m": ([UP], _MORE),
-    "R": ([UP], _ALL),
-    "T_s": ([DOWN], _ONCE),
-    "T_m": ([DOWN], _MORE),
-    "T": ([DOWN], _ALL),
-    "lost": ([SIDEWAYS, STUCK], _ALL),
-    "absorbed": ([UP, DOWN, SIDEWAYS, STUCK], _ALL),
+_PARTS: dict[str, tuple[list[int], slice, tuple[int, ...]]] = {
+    "R_s": ([layout.UP], _ONCE, (1, 2)),
+    "R_m": ([layout.UP], _MORE, (1, 2)),
+    "R": ([layout.UP], _ALL, (1, 2)),
+    "T_s": ([layout.DOWN], _ONCE, (1, 2)),
+    "T_m": ([layout.DOWN], _MORE, (1, 2)),
+    "T": ([layout.DOWN], _ALL, (1, 2)),
+    "lost": ([layout.SIDEWAYS, layout.STUCK], _ALL, (1, 2)),
+    "absorbed": ([*range(layout.OUTCOMES)], _ALL, (1, 2)),
+    "reflected": ([layout.UP], _ALL, (1,)),
+    "transmitted": ([layout.DOWN], _ALL, (1,)),
 }
+"""By what ends and events a share is, and over which of them it is the sum."""
 
 
 def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[Numbers, Numbers]:
@@ -205,11 +184,6 @@ def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[
     Where photons fall on several surfaces, the error is that of the mean over surfaces: the larger
     mean square of a one-way analysis of variance (Scheffe, The Analysis of Variance, Wiley 1959,
     ch. 7). Shapes: photons (surfaces,); total, squares (surfaces, ...); returns mean, error (...).
-
-    >>> one = np.array([1.0, 1.0])
-    >>> mean, error = mean_and_error(2.0 * one, one, one)
-    >>> print(mean, error.round(3))
-    0.5 0.354
     """
     lit = photons > 0.0
     photons, total, squares = photons[lit], total[lit], squares[lit]
@@ -240,33 +214,31 @@ class Energy(EnergyShares):
     def of(cls, beam: PhotonBeam, sums: Numbers) -> Energy:
         """Return what sums over photons say. Shape: sums (surfaces, ends, events, lights, SUMS)."""
         source, shape = beam.states[0][0], beam.indices.n.shape
-        counts = sums[..., 0, COUNT]
+        counts = sums[..., 0, layout.COUNT]
         photons = counts.sum(axis=(1, 2))
 
         def shares(total: Numbers, squares: Numbers, whole: float) -> EnergyShares:
             wanted = (*sums.shape[:3], *shape)
             total, squares = (total / source).reshape(wanted), (squares / source**2).reshape(wanted)
             results: dict[str, Numbers] = {}
-            for name, (ends, events) in _PARTS.items():
-                part = [each[:, ends, events].sum(axis=(1, 2)) for each in (total, squares)]
+            for name, (ends, events, axes) in _PARTS.items():
+                part = [each[:, ends, events].sum(axis=axes) for each in (total, squares)]
                 results[name], results[f"{name}_se"] = mean_and_error(photons, *part)
             results["absorbed"] = whole - results["absorbed"]
-            for name, end in (("reflected", UP), ("transmitted", DOWN)):
-                part = [each[:, end] for each in (total, squares)]
-                results[name], results[f"{name}_se"] = mean_and_error(photons, *part)
             return EnergyShares(**results)
 
-        polarised, scalar = sums[..., INTENSITY], sums[..., SCALAR]
-        squares, scalar_squares = sums[..., INTENSITY_SQUARED], sums[..., SCALAR_SQUARED]
-        apart = squares - 2.0 * sums[..., PRODUCT] + scalar_squares
+        polarised, scalar = sums[..., layout.INTENSITY], sums[..., layout.SCALAR]
+        squares = sums[..., layout.INTENSITY_SQUARED]
+        scalar_squares = sums[..., layout.SCALAR_SQUARED]
+        apart = squares - 2.0 * sums[..., layout.PRODUCT] + scalar_squares
         return cls(
             **vars(shares(polarised, squares, 1.0)),
             scalar=shares(scalar, scalar_squares, 1.0),
             difference=shares(polarised - scalar, apart, 0.0),
             photons=int(photons.sum()),
             surfaces=int((photons > 0.0).sum()),
-            sideways=int(counts[:, SIDEWAYS].sum()),
-            stuck=int(counts[:, STUCK].sum()),
+            sideways=int(counts[:, layout.SIDEWAYS].sum()),
+            stuck=int(counts[:, layout.STUCK].sum()),
         )
 
 

@@ -79,11 +79,6 @@ def single_scattering(
         In 1 / sr, of the broadcast shape. Where JAX traces indices or alphas, its matrix is
         JAX's, with its slopes.
 
-    Raises
-    ------
-    SurfaceError
-        With a sentence for each value that is not allowed.
-
     Examples
     --------
     >>> down, up = (0.6, 0.0, -0.8), (0.6, 0.0, 0.8)
@@ -156,9 +151,6 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
     """Return the frame of light that comes down to a surface, or goes up from it.
 
     Its x is along (0, 0, 1) cross direction (..., 3); along the normal it is (0, 1, 0).
-
-    >>> frame_along("outgoing", (0.6, 0.0, 0.8), up=True).x
-    array([0., 1., 0.])
     """
     check_known(name, direction)
     argument, rounding = vectors(name, direction)
@@ -177,16 +169,11 @@ def frame_along(name: str, direction: npt.ArrayLike, *, up: bool) -> Frame:
             f"{name}{first_place(bad)} has z = {z[..., 2][bad].flat[0]:.6g}; it is the direction "
             f"in which light travels {way} the surface, so give a z {sign} 0"
         )
-    x = _across_meridian(z)
-    return Frame.trusted(x, np.cross(z, x), z, rounding)
-
-
-def _across_meridian(z: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     size = np.hypot(z[..., 0], z[..., 1])[..., np.newaxis]
-    along_normal = size == 0.0
     level = np.stack([-z[..., 1], z[..., 0], np.zeros(z.shape[:-1])], axis=-1)
     # Adding 0 turns -0 into 0.
-    return np.where(along_normal, (0.0, 1.0, 0.0), level / np.where(along_normal, 1.0, size)) + 0.0
+    x = np.where(size == 0.0, (0.0, 1.0, 0.0), level / np.where(size == 0.0, 1.0, size)) + 0.0
+    return Frame.trusted(x, np.cross(z, x), z, rounding)
 
 
 def alpha_of(sample: Sample) -> tuple[float, float] | None:

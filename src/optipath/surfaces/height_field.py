@@ -4,23 +4,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.errors import SurfaceError
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
-from optipath.surfaces.field_arguments import Pair, heights_of, pair_of, read_heights
-from optipath.surfaces.random_field import random_field
-from optipath.values.arrays import Unchanging, same_fields
+from optipath.surfaces.height_files import read_heights
+from optipath.surfaces.random_field import LARGEST, Pair, pair_of, random_field
+from optipath.values.arrays import Unchanging, as_argument, same_fields
+from optipath.values.precision import Array, as_doubles
 
 if TYPE_CHECKING:
     from os import PathLike
 
     from numpy.typing import ArrayLike
-
-    from optipath.values.precision import Array
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -142,8 +141,6 @@ class HeightField(Unchanging):
     def flat(cls) -> HeightField:
         """Return the flat surface, which goes on for ever.
 
-        Examples
-        --------
         >>> HeightField.flat().is_flat
         True
         """
@@ -169,11 +166,6 @@ class HeightField(Unchanging):
         Returns
         -------
         HeightField
-
-        Raises
-        ------
-        SurfaceError
-            As the class does.
 
         Examples
         --------
@@ -258,16 +250,8 @@ class HeightField(Unchanging):
         return float(slopes_x) / 2.0, float(slopes_y) / 2.0
 
     def vertices(self) -> Array:
-        """Return the heights at all corners of cells, the border once more where it is periodic.
+        """Return the heights (cells_y + 1, cells_x + 1) of all corners, a period's border twice.
 
-        Returns
-        -------
-        ndarray, shape (cells_y + 1, cells_x + 1)
-            Of float64, its rows one after the other in memory.
-
-        Examples
-        --------
-        >>> from optipath.surfaces import HeightField
         >>> HeightField.from_heights([[0.0, 1.0], [2.0, 3.0]], 2.0, periodic=True).vertices()
         array([[0., 1., 0.],
                [2., 3., 2.],
@@ -285,3 +269,29 @@ class HeightField(Unchanging):
         of = f"{'' if kind else ' of'} {self.cells[0]} x {self.cells[1]} cells"
         period = "periodic" if self.periodic else "not periodic"
         return f"HeightField{kind}{of}, {self.size[0]:.6g} x {self.size[1]:.6g}, {period}"
+
+
+def heights_of(heights: Any, faults: Faults, *, periodic: bool) -> Array:
+    """Return heights as a read-only copy in float64. Shape: heights (rows, columns)."""
+    least = 2 if periodic else 3
+    array = faults.attempt("", as_argument, "the array of heights", heights, SurfaceError)
+    if array is None:
+        return np.zeros((least, least))
+    if array.dtype.kind not in "iuf" or array.ndim != 2 or min(array.shape) < least:
+        faults.append(
+            f"heights are an array of {array.dtype} of shape {array.shape}; give real numbers, "
+            f"rows along y and columns along x, {least} x {least} or more"
+        )
+        return np.zeros((least, least))
+    stored = np.array(as_doubles(array), order="C")
+    if (bad := np.argwhere(~np.isfinite(stored))).size:
+        row, column = map(int, bad[0])
+        faults.append(
+            f"{len(bad)} of {stored.size} heights are not finite, the first "
+            f"{stored[row, column]} at heights[{row}, {column}]; cut these out, or fill them with "
+            f"heights around them"
+        )
+    elif (highest := np.abs(stored).max()) > LARGEST:
+        faults.append(f"heights reach {highest:.3g}; give them in a unit of at most {LARGEST:g}")
+    stored.setflags(write=False)
+    return stored

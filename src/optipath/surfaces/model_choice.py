@@ -20,8 +20,9 @@ from optipath.values.precision import real_number, whole_number
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.surfaces.hemisphere.hemisphere import Hemisphere
+    from optipath.surfaces.hemisphere.beam import PartSums
     from optipath.surfaces.sample import Sample
+    from optipath.values.precision import Numbers
 
 
 _EXIT = np.radians(80.0)
@@ -92,7 +93,7 @@ def decide(
     assert mask is not None  # noqa: S101 - or a fault has been raised
     if side == "transmitted" and beam.indices.opaque:
         raise SurfaceError("nothing goes through an opaque sample; give side='reflected'")
-    tolerance, angle = float(tolerance), float(np.arctan2(beam.sin, beam.cos))
+    tolerance, angle = float(tolerance), beam.incidence
     smooth = smooth_difference(beam.indices, angle, side)
     change = f"{100.0 * smooth:z.3f} %"
     evidence = [f"smooth interfaces, exact: polarisation changes all {side} light by {change}"]
@@ -105,8 +106,15 @@ def decide(
     walked = {"photons": photons, "wavelengths": wavelengths, "sensor": sensor, **light}
     walked |= {"threads": threads, "progress": progress}
     found = measure(sample, angle, **walked)
-    counts = _bright(found, side, mask)
-    pixels = found.sensor.pixels
+    scalar_light, pixels = found.scalar_light(found.side(side)), found.sensor.pixels
+    counts = mask.bright(scalar_light)
+    if not counts.any():
+        brightest = np.nanmax(scalar_light) / (np.nanmean(scalar_light) or 1.0)
+        raise SurfaceError(
+            f"no pixel counts: of {found.photons:,} photons the brightest pixel of {side} light "
+            f"has {brightest:.3g} times the mean, and brighter_than is {mask.brighter_than:g}; "
+            f"walk more photons, or give a smaller brighter_than, such as 0.2"
+        )
     evidence.append(
         f"{found.photons:,} photons, {pixels} x {pixels} pixels, of which {counts.sum()} count: "
         f"{mask}"
@@ -117,10 +125,19 @@ def decide(
         evidence.append(f"single scattering: {reason}")
     else:
         once = measure(sample, angle, **walked, polarized="scalar", events=1)
-        multiple, apart = _multiple(found, once, counts), _beside_model(found, counts)
+        sums = np.concatenate([each.own.sums[..., -1:] for each in (found, once)], axis=-1)
+        multiple = _largest(
+            found.own._replace(sums=sums), lambda each: 1.0 - each[..., 1] / each[..., 0], counts
+        )
+        facets = found.single_scattering().values[..., 0, 0]
+        apart = _largest(
+            found.own, lambda each: facets / found.matrices(each)[:1, ..., 0, 0] - 1.0, counts
+        )
         single = apart.within(tolerance)
-        how = "has met the surface more than once, noise taken in"
-        evidence.append(f"of a pixel's light at most {multiple} {how}")
+        evidence.append(
+            f"of a pixel's light at most {multiple} has met the surface more than once, noise "
+            f"taken in"
+        )
         how = "the analytic model is off all light of a pixel at most"
         evidence.append(f"{how} by {apart}{_VERDICTS[single]}")
     relative = found.relative_difference(side, brighter_than=mask.brighter_than)
@@ -162,34 +179,11 @@ def _exit_evidence(sample: Sample, incidence: float, wavelengths: Any) -> str:
     )
 
 
-def _bright(found: Hemisphere, side: str, mask: PixelMask) -> npt.NDArray[np.bool_]:
-    """Return the pixels that count, (rows, columns): at least one."""
-    light = found.scalar_light(found.side(side))
-    counts = mask.bright(light)
-    if not counts.any():
-        brightest = np.nanmax(light) / (np.nanmean(light) or 1.0)
-        raise SurfaceError(
-            f"no pixel counts: of {found.photons:,} photons the brightest pixel of {side} light "
-            f"has {brightest:.3g} times the mean, and brighter_than is {mask.brighter_than:g}; "
-            f"walk more photons, or give a smaller brighter_than, such as 0.2"
-        )
-    return counts
-
-
-def _multiple(found: Hemisphere, once: Hemisphere, counts: npt.NDArray[np.bool_]) -> LargestOf:
-    """Return the largest share of a pixel's light that has met the surface more than once."""
-    sums = [each.own.sums[..., -1:] for each in (found, once)]
-    both = found.own._replace(sums=np.concatenate(sums, axis=-1))
-    value, error = both.estimate(lambda light: 1.0 - light[..., 1] / light[..., 0])
-    return LargestOf.of(value[0][counts], error[0][counts])
-
-
-def _beside_model(found: Hemisphere, counts: npt.NDArray[np.bool_]) -> LargestOf:
-    """Return how far the analytic model is off all light of a pixel, over that light, at most."""
-    model = found.single_scattering().values[..., 0, 0]
-    value, error = found.own.estimate(
-        lambda light: model / found.matrices(light)[:1, ..., 0, 0] - 1.0
-    )
+def _largest(
+    sums: PartSums, result: Callable[[Numbers], Numbers], counts: npt.NDArray[np.bool_]
+) -> LargestOf:
+    """Return the largest of what follows from the reflected light of pixels that count."""
+    value, error = sums.estimate(result)
     return LargestOf.of(value[0][counts], error[0][counts])
 
 
@@ -290,12 +284,7 @@ class LargestOf(NamedTuple):
 
     @classmethod
     def of(cls, values: npt.ArrayLike, errors: npt.ArrayLike) -> Self:
-        """Return the largest size among some numbers (...) with errors.
-
-        >>> found = LargestOf.of([0.01, -0.05], [0.001, 0.005])
-        >>> print(round(found.value, 3), found.is_below(0.07), found.is_above(0.03))
-        0.05 True True
-        """
+        """Return the largest size among some numbers (...) with errors."""
         sizes = np.abs(np.ravel(values))
         if np.isnan(sizes).all():
             return cls(np.nan, np.nan, 0.0, np.inf)
@@ -311,17 +300,9 @@ class LargestOf(NamedTuple):
         error = float(known[at])
         return cls(float(sizes[at]), error if error < np.inf else np.nan, max(least, 0.0), most)
 
-    def is_below(self, limit: float) -> bool:
-        """Tell whether none is above a limit, noise taken in."""
-        return self.most <= limit
-
-    def is_above(self, limit: float) -> bool:
-        """Tell whether one is above a limit, noise taken in."""
-        return self.least > limit
-
     def within(self, tolerance: float) -> bool | None:
         """Tell whether all are within a tolerance; None if the noise does not tell."""
-        return True if self.is_below(tolerance) else False if self.is_above(tolerance) else None
+        return True if self.most <= tolerance else False if self.least > tolerance else None
 
     def __str__(self) -> str:
         least, most = 100.0 * self.least, 100.0 * self.most

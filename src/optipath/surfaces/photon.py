@@ -16,33 +16,9 @@ from optipath.kernels.fresnel.boundary import lossless_boundary
 from optipath.kernels.primitives import FLOAT, NUMPY
 from optipath.light.frame import Frame
 from optipath.surfaces.smooth import path_of_steps
+from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import BLOCK, beam_of
-from optipath.surfaces.walk.layout import (
-    COLUMN,
-    COS,
-    COS_2A,
-    DIRECTION,
-    EVENTS,
-    FACET,
-    FIRST_K,
-    FIRST_X,
-    LAST_K,
-    LAST_X,
-    LAYER,
-    LINE,
-    N1,
-    N2,
-    NORMAL,
-    OPAQUE,
-    OUTCOME,
-    OUTCOME_NAMES,
-    POINT,
-    REFLECTED,
-    SHARE,
-    SIN,
-    SIN_2A,
-)
-from optipath.surfaces.walk.meshes import HIGH, NUMBERS, meshes_of
+from optipath.surfaces.walk.meshes import meshes_of
 from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:
@@ -110,27 +86,11 @@ class Photon:
     def path(self, which: Place | None = None) -> PathGraph:
         """Return the way of the photon as a path, whose light is that of the photon.
 
-        The source has the whole weight, and each event is an `Interface`. The frames of the path
-        stand relative to each other, so its light is in that of the photon: the numbers of
-        ``path().trace().stokes`` are `stokes`, in `frame`.
+        The source has the whole weight, and each event is an `Interface`: its nodes are ``source``,
+        ``facet-1`` and so on, and ``detector``. The frames of the path stand relative to each
+        other, so its light is in that of the photon: the numbers of ``path().trace().stokes`` are
+        `stokes`, in `frame`. Of several wavelengths, one may be given by its place.
 
-        Parameters
-        ----------
-        which : int or tuple of int, optional
-            Which of several wavelengths, by its place; all of them by default.
-
-        Returns
-        -------
-        PathGraph
-            Its nodes are ``source``, ``facet-1`` and so on, and ``detector``.
-
-        Raises
-        ------
-        SurfaceError
-            If there is no such wavelength.
-
-        Examples
-        --------
         >>> from optipath.surfaces.sample import Sample
         >>> photon = Sample([(1.5, 0.3)], cells=320).photon(7, "60 deg")
         >>> path = photon.path()
@@ -194,33 +154,32 @@ def event_of(
 ) -> PhotonEvent:
     """Return an event out of the record of a photon."""
     row = walked.record[number]
-    layer, column, line, facet = (int(row[place]) for place in (LAYER, COLUMN, LINE, FACET))
-    position, normal, direction = (
-        row[place : place + 3].copy() for place in (POINT, NORMAL, DIRECTION)
-    )
+    layer, column, line, facet = map(int, row[: layout.SIDE])
+    cos, sin, cos_2a, sin_2a, share, n1, n2 = map(float, row[layout.COS : layout.POINT])
+    position, normal, direction = row[layout.POINT :][:9].reshape(3, 3).copy()
     # The point as one of the layer's own field, in the cell that was met.
     field = beam.sample.fields(surface)[layer]
-    top = meshes_of(beam.sample, surface).numbers[NUMBERS * layer + HIGH]
+    top = meshes_of(beam.sample, surface).numbers[layout.NUMBERS * layer + layout.HIGH]
     shift = *walked.starts[2 * layer : 2 * layer + 2], field.heights.max() - top
     on_mesh = position + np.array(shift)
     if field.periodic:
         middle = (np.array([column, line]) + 0.5) * field.spacing
         on_mesh[:2] -= np.round((on_mesh[:2] - middle) / field.size) * field.size
     return PhotonEvent(
-        layer=layer,
-        facet=(column, line, facet),
-        position=position,
-        on_mesh=on_mesh,
-        normal=normal,
-        direction=direction,
-        onwards=onwards,
-        cos=float(row[COS]),
-        sin=float(row[SIN]),
-        turn=0.5 * atan2(row[SIN_2A], row[COS_2A]),
-        reflected=bool(row[REFLECTED]),
-        probability=float(row[SHARE]),
-        n1=float(row[N1]),
-        n2=beam.indices.base if row[N2] == OPAQUE else float(row[N2]),
+        layer,
+        (column, line, facet),
+        position,
+        on_mesh,
+        normal,
+        direction,
+        onwards,
+        cos,
+        sin,
+        turn=0.5 * atan2(sin_2a, cos_2a),
+        reflected=bool(row[layout.REFLECTED]),
+        probability=share,
+        n1=n1,
+        n2=beam.indices.base if n2 == layout.OPAQUE else n2,
     )
 
 
@@ -250,30 +209,24 @@ def _interface(event: PhotonEvent, which: Place | None) -> Interface:
     return Interface(index, angle, event.n1, event.turn, measured_in, parallel=False)
 
 
-_HEADS = ("", "layer", "", "media", "incidence", "turn", "probability", "x", "y", "z")
+_HEADS = ["", "layer", "", "media", "incidence", "turn", "probability", "x", "y", "z"]
 
 
 def event_table(events: Iterable[PhotonEvent]) -> str:
     """Return a line for each event of a photon."""
-    rows = [_HEADS, *(_row(number, event) for number, event in enumerate(events, 1))]
+    rows = [_HEADS]
+    for number, event in enumerate(events, 1):
+        what = "reflected" if event.reflected else "refracted"
+        media = f"{_index(event.n1)} | {_index(event.n2)}"
+        angles = [f"{degrees(angle):z.3f} deg" for angle in (event.incidence, event.turn)]
+        where = [f"{each:z.3f}" for each in event.on_mesh]
+        share = f"{event.probability:.6f}"
+        rows.append([str(number), str(event.layer), what, media, *angles, share, *where])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return "\n".join(
         "  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True))
         for row in rows
     )
-
-
-def _row(number: int, event: PhotonEvent) -> tuple[str, ...]:
-    what = "reflected" if event.reflected else "refracted"
-    media = f"{_index(event.n1)} | {_index(event.n2)}"
-    angles = [f"{_rounded(degrees(angle))} deg" for angle in (event.incidence, event.turn)]
-    where = map(_rounded, event.on_mesh)
-    return str(number), str(event.layer), what, media, *angles, f"{event.probability:.6f}", *where
-
-
-def _rounded(number: float) -> str:
-    # Adding 0 turns -0 into 0.
-    return f"{round(number, 3) + 0.0:.3f}"
 
 
 def _index(index: Any) -> str:
@@ -288,20 +241,18 @@ def replayed_photon(sample: Sample, number: int, incidence: Any, **light: Any) -
     block, place = divmod(int(number), BLOCK)
     walked, surface = beam.block(block, wanted=place), beam.surface(int(number))
     ends, shape = walked.record[0], beam.indices.n.shape
-    first, start_x, last, x = (
-        ends[place : place + 3].copy() for place in (FIRST_K, FIRST_X, LAST_K, LAST_X)
-    )
-    count = int(ends[EVENTS])
-    directions = [*walked.record[2 : count + 1, DIRECTION : DIRECTION + 3].copy(), last][:count]
+    first, start_x, last, x = ends[layout.FIRST_K :][:12].reshape(4, 3).copy()
+    events = walked.record[1 : int(ends[layout.EVENTS]) + 1]
+    directions = [*events[1:, layout.DIRECTION :][:, :3].copy(), last][: len(events)]
     return Photon(
-        beam=beam,
-        number=int(number),
-        surface=surface,
+        beam,
+        int(number),
+        surface,
         events=tuple(
             event_of(beam, surface, walked, place, onwards)
             for place, onwards in enumerate(directions, 1)
         ),
-        end=OUTCOME_NAMES[int(ends[OUTCOME])],
+        end=layout.OUTCOME_NAMES[int(ends[layout.OUTCOME])],
         start=Frame.from_direction(first, start_x),
         frame=Frame.from_direction(last, x),
         stokes=np.stack(stokes_of(NUMPY, tuple(walked.lights.T[:4])), axis=-1).reshape(*shape, 4),

@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+import warnings
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.errors import SurfaceError, shown
+from optipath.errors import Cure, Fault, MeshWarning, SurfaceError, shown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
-from optipath.surfaces.field_arguments import (
-    Pair,
-    cells_of,
-    converged_cells,
-    pair_of,
-    period_faults,
-    warn_of_coarse,
-)
+from optipath.values.angles import calls_up
 from optipath.values.arrays import refuse_too_large
-from optipath.values.precision import Array, is_whole, whole_number
+from optipath.values.precision import Array, is_whole, real_number, whole_number
+
+Pair: TypeAlias = tuple[float, float]
+
+LARGEST = 1e30
+"""The largest length, and one over the least, whose ratios to others still have squares."""
+
+_FEWEST_LENGTHS = 10
+"""How many correlation lengths a period needs, to have enough different waves."""
+
+_CONVERGED, _SMOOTH, _OF_SMOOTH = 16, 0.3, 5
+"""How many cells a correlation length needs; up to which alpha little light is scattered twice, and
+how many cells do there."""
 
 _CELL, _WAVE = 32, 128
 """How many bytes a cell and a wave take, with what is made of them."""
@@ -36,11 +43,8 @@ def random_field(
     if not faults and is_periodic:
         faults += period_faults(rough, sides)
     mesh = converged_cells(rough, sides) if cells is None else cells_of(cells, faults)
-    if not (isinstance(seed, np.random.SeedSequence) or is_whole(seed, 0)):
-        faults.append(
-            f"seed must be a whole number of 0 or more, or a numpy.random.SeedSequence, not "
-            f"{shown(seed)}"
-        )
+    if not isinstance(seed, np.random.SeedSequence):
+        faults += whole_number("seed", seed, 0)
     faults += whole_number("waves", waves)
     if faults:
         raise SurfaceError(*faults)
@@ -54,6 +58,81 @@ def random_field(
     )
     drawn = RandomWaves.drawn(rough, int(waves), seed, sides if is_periodic else None)
     return drawn.heights(x, y), sides, is_periodic, rough
+
+
+def pair_of(what: str, value: Any, faults: list[str]) -> Pair:
+    """Return positive numbers for x and for y, of one number or of a pair."""
+    numbers = [real_number(each) or 0.0 for each in _both(value)]
+    if len(numbers) == 2 and all(1.0 / LARGEST <= each <= LARGEST for each in numbers):
+        return numbers[0], numbers[1]
+    limits = f"{1.0 / LARGEST:g} .. {LARGEST:g}"
+    faults.append(f"{what} must be a number of {limits}, or two for x and y, not {shown(value)}")
+    return 1.0, 1.0
+
+
+def cells_of(cells: Any, faults: list[str]) -> tuple[int, int]:
+    """Return how many cells there are along x and y, of one number or of a pair."""
+    numbers = _both(cells)
+    if len(numbers) == 2 and all(is_whole(number, 2) for number in numbers):
+        return int(numbers[0]), int(numbers[1])
+    faults.append(f"cells must be a whole number from 2, or two for x and y, not {shown(cells)}")
+    return 2, 2
+
+
+def _both(value: Any) -> tuple[Any, ...]:
+    """Return the entries of a pair, or a number twice."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
+        return tuple(value)
+    return value, value
+
+
+def correlation_lengths(alpha: Pair, size: Pair) -> Pair:
+    """Return how many correlation lengths, 2 / alpha, a surface of random waves has."""
+    return size[0] * alpha[0] / 2.0, size[1] * alpha[1] / 2.0
+
+
+def period_faults(alpha: Pair, size: Pair) -> list[str]:
+    """Return the sentences for periods too short for random waves; none for long ones."""
+    lengths = correlation_lengths(alpha, size)
+    # A size of 20 / alpha may be less by a rounding.
+    if min(lengths) * (1.0 + 1e-12) >= _FEWEST_LENGTHS:
+        return []
+    enough = tuple(math.ceil(2.0 * _FEWEST_LENGTHS / each) for each in alpha)
+    why = (
+        f"a periodic surface of {size[0]:.6g} x {size[1]:.6g} and alpha {alpha} has "
+        f"{lengths[0]:.3g} x {lengths[1]:.3g} correlation lengths 2/alpha, too few for its waves; "
+        f"write size={enough} or more, or periodic=False"
+    )
+    return [why]
+
+
+def converged_cells(alpha: Pair, size: Pair, each: int = _CONVERGED) -> tuple[int, int]:
+    """Return how many cells are enough for any number of events, or for so many a length."""
+    # The rounding of a product is no cell more.
+    along_x, along_y = (
+        max(2, math.ceil(each * length * (1.0 - 1e-12)))
+        for length in correlation_lengths(alpha, size)
+    )
+    return along_x, along_y
+
+
+def warn_of_coarse(alpha: Pair, size: Pair, cells: tuple[int, int]) -> None:
+    """Warn of a mesh that is too coarse for its roughness."""
+    needed = _CONVERGED if max(alpha) > _SMOOTH else _OF_SMOOTH
+    enough = converged_cells(alpha, size, needed)
+    if cells[0] >= enough[0] and cells[1] >= enough[1]:
+        return
+    lengths = correlation_lengths(alpha, size)
+    had = min(cells[0] / lengths[0], cells[1] / lengths[1])
+    why = (
+        f"a mesh of {cells[0]} x {cells[1]} cells has {had:.4g} a correlation length 2/alpha, and "
+        f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and light of several events"
+    )
+    ways = f"cells={enough}", f"--cells {','.join(map(str, enough))}"
+    cure = Cure.of("{} are enough".format, *ways)
+    warnings.warn(Fault(why, cure), MeshWarning, stacklevel=calls_up())
 
 
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0

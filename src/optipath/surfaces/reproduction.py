@@ -4,24 +4,28 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cache, cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import MeshWarning
-from optipath.surfaces.energy_shares import energy
+from optipath.errors import MeshWarning, SurfaceError, shown, unknown
+from optipath.paths.files.schema import Faults, checked_table, names_in, presets_folder
+from optipath.surfaces.energy_shares import Energy, energy
 from optipath.surfaces.hemisphere.measure import measure
+from optipath.surfaces.sample import Sample
+from optipath.surfaces.sample_files import described, load_sample, text_and_file
+from optipath.surfaces.walk.beam import UNPOLARISED, beam_of
+from optipath.values.precision import Numbers, real_number, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from os import PathLike
+    from pathlib import Path
 
     import xarray as xr
 
-    from optipath.surfaces.energy_shares import Energy
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
-    from optipath.surfaces.sample import Sample
-    from optipath.values.precision import Numbers
 
 
 class Walks(NamedTuple):
@@ -44,15 +48,10 @@ class Measurement:
     brighter_than: float = 0.2
     noise: float = 0.2
     azimuth: float = 180.0
-    stokes: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    stokes: tuple[float, ...] = UNPOLARISED
 
     def agrees(self, value: float, error: float) -> bool | None:
-        """Tell whether a value is the published one, as far as it is known.
-
-        >>> one = Measurement("adm", "7 to 8 %", Walks("60 deg", (), None), (0.07, 0.08))
-        >>> one.agrees(0.083, 0.002), one.agrees(0.09, 0.002)
-        (True, False)
-        """
+        """Tell whether a value is the published one, as far as it is known."""
         if self.published is None:
             return None
         least, largest = self.published
@@ -71,11 +70,6 @@ class Experiment:
     measurements: tuple[Measurement, ...]
     sensor: int = 128
     photons: int = 1_000_000
-
-    def by_walks(self) -> Iterator[tuple[Walks, list[Measurement]]]:
-        """Yield photons, and all that is measured with them, in the order of the file."""
-        for walks in dict.fromkeys(one.walks for one in self.measurements):
-            yield walks, [one for one in self.measurements if one.walks == walks]
 
 
 class Reproduced(NamedTuple):
@@ -99,9 +93,8 @@ def reproduce(
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Reproduced]:
-    """Do an experiment again, and yield what is found, one after the other.
+    """Do an experiment again, and yield what is found, photons of one kind after the other.
 
-    >>> from optipath.surfaces.experiment_files import load_experiment
     >>> mirror = load_experiment("wang-2017-table-2-alpha-0-4")
     >>> for one in reproduce(mirror, photons=10_000):
     ...     print(one.measurement.walks.incidence, round(one.found.value, 12), one.agrees)
@@ -110,10 +103,10 @@ def reproduce(
     80 deg 1.0 True
     """
     count = experiment.photons if photons is None else photons
-    for walks, measurements in experiment.by_walks():
-        options = {"seed": seed, "threads": threads, "progress": progress}
+    options = {"seed": seed, "threads": threads, "progress": progress}
+    for walks in dict.fromkeys(one.walks for one in experiment.measurements):
         walked = Walked(experiment, walks, count, options)
-        for measurement in measurements:
+        for measurement in (one for one in experiment.measurements if one.walks == walks):
             with warnings.catch_warnings():
                 if walks.cells is not None:  # A coarse mesh is what is looked at.
                     warnings.simplefilter("ignore", MeshWarning)
@@ -143,15 +136,13 @@ class Measure(NamedTuple):
     several: bool = False
 
 
-def _share(
-    name: str, walked: Walked, measurement: Measurement, *, scalar: bool = False
-) -> Measured:
-    whole = walked.energy(measurement.stokes)
-    energy = whole.scalar if scalar else whole
-    if name == "R+T":
-        error = np.hypot(energy.absorbed_se, energy.lost_se)
-        return Measured(float(energy.R + energy.T), float(error))
-    return Measured(float(getattr(energy, name)), float(getattr(energy, f"{name}_se")))
+def _share(name: str, walked: Walked, measurement: Measurement) -> Measured:
+    whole, share = walked.energy(measurement.stokes), name.removeprefix("scalar-")
+    shares = whole if share == name else whole.scalar
+    if share == "R+T":
+        error = np.hypot(shares.absorbed_se, shares.lost_se)
+        return Measured(float(shares.R + shares.T), float(error))
+    return Measured(float(getattr(shares, share)), float(getattr(shares, f"{share}_se")))
 
 
 def _largest(name: str, walked: Walked, measurement: Measurement) -> Measured:
@@ -207,39 +198,21 @@ _SHARES = {
     "T": "share let through",
     "R+T": "share reflected or let through",
 }
+_SCALAR = {f"scalar-{name}": f"{told}, without polarisation" for name, told in _SHARES.items()}
+_MODEL = [f"S{each} of the facet model, over that of photons, less 1" for each in range(3)]
 
-_LIGHT = ("cells", "stokes")
 _PIXELS = ("cells", "sensor")
+_OF_LIGHT = (*_PIXELS, "stokes")
+_OF_LARGEST = (*_PIXELS, "brighter_than", "noise", "azimuth")
 
 MEASURES = {
-    **{name: Measure(told, partial(_share, name), _LIGHT) for name, told in _SHARES.items()},
-    **{
-        f"scalar-{name}": Measure(
-            f"{told}, without polarisation", partial(_share, name, scalar=True), ("cells",)
-        )
-        for name, told in _SHARES.items()
-    },
-    **{
-        name.lower(): Measure(
-            f"largest {name} of a pixel",
-            partial(_largest, name.lower()),
-            (*_PIXELS, "brighter_than", "noise", "azimuth"),
-            several=True,
-        )
-        for name in ("ADM", "MDM")
-    },
-    "dolp": Measure("DoLP of mirrored light", partial(_mirrored, "dolp"), (*_PIXELS, "stokes")),
-    "aop": Measure(
-        "AoP of mirrored light, 0 .. 45 deg", partial(_mirrored, "aop"), (*_PIXELS, "stokes")
-    ),
-    **{
-        f"model-S{each}": Measure(
-            f"S{each} of the facet model, over that of photons, less 1",
-            partial(_excess, each),
-            _PIXELS,
-        )
-        for each in range(3)
-    },
+    **{n: Measure(told, partial(_share, n), ("cells", "stokes")) for n, told in _SHARES.items()},
+    **{n: Measure(told, partial(_share, n), ("cells",)) for n, told in _SCALAR.items()},
+    "adm": Measure("largest ADM of a pixel", partial(_largest, "adm"), _OF_LARGEST, several=True),
+    "mdm": Measure("largest MDM of a pixel", partial(_largest, "mdm"), _OF_LARGEST, several=True),
+    "dolp": Measure("DoLP of mirrored light", partial(_mirrored, "dolp"), _OF_LIGHT),
+    "aop": Measure("AoP of mirrored light, 0 .. 45 deg", partial(_mirrored, "aop"), _OF_LIGHT),
+    **{f"model-S{n}": Measure(t, partial(_excess, n), _PIXELS) for n, t in enumerate(_MODEL)},
     "model-S3": Measure(
         "largest S3 of the facet model",
         lambda walked, _: Measured(np.abs(model_of(walked.hemisphere)[..., 3]).max().item(), 0.0),
@@ -263,29 +236,22 @@ class Walked:
     photons: int
     options: dict[str, Any]
 
-    def energy(self, stokes: tuple[float, ...]) -> Energy:
-        """Return what share of light of a Stokes vector comes back and goes through."""
-        known: dict[tuple[float, ...], Energy] = vars(self).setdefault("_energies", {})
-        if stokes not in known:
-            known[stokes] = energy(
-                self.sample,
-                self.walks.incidence,
-                self.photons,
-                wavelength=next(iter(self.walks.wavelengths), None),
-                stokes=stokes,
-                **self.options,
-            )
-        return known[stokes]
+    @cached_property
+    def energy(self) -> Callable[[tuple[float, ...]], Energy]:
+        """What share of light of a Stokes vector comes back and goes through."""
+        wavelength = next(iter(self.walks.wavelengths), None)
+        walk = partial(energy, self.sample, self.walks.incidence, self.photons, **self.options)
+        return cache(lambda stokes: walk(wavelength=wavelength, stokes=stokes))
 
     @cached_property
     def hemisphere(self) -> Hemisphere:
         """What goes into each pixel."""
-        return self._hemisphere(None)
+        return self._measure(None)
 
     @cached_property
     def once(self) -> Hemisphere:
         """What goes into each pixel after one event."""
-        return self._hemisphere(1)
+        return self._measure(1)
 
     @cached_property
     def sample(self) -> Sample:
@@ -293,16 +259,10 @@ class Walked:
         cells, sample = self.walks.cells, self.experiment.sample
         return sample if cells is None else replace(sample, cells=(cells, cells))
 
-    def _hemisphere(self, events: int | None) -> Hemisphere:
-        return measure(
-            self.sample,
-            self.walks.incidence,
-            self.photons,
-            [*self.walks.wavelengths] or None,
-            self.experiment.sensor,
-            events=events,
-            **self.options,
-        )
+    def _measure(self, events: int | None) -> Hemisphere:
+        walks, options = self.walks, {"sensor": self.experiment.sensor, **self.options}
+        light = walks.incidence, self.photons, [*walks.wavelengths] or None
+        return measure(self.sample, *light, events=events, **options)
 
 
 def model_of(hemisphere: Hemisphere) -> Numbers:
@@ -345,3 +305,113 @@ def _blocks(pixels: Numbers) -> Numbers:
     side = len(pixels) // size
     whole = pixels[: side * size, : side * size]
     return np.asarray(whole.reshape(side, size, side, size, -1).sum(axis=(1, 3)))
+
+
+_FOLDER = presets_folder() / "experiments"
+
+
+def experiment_names() -> list[str]:
+    """Return the names of the experiments that come with the library, sorted.
+
+    >>> experiment_names()[0]
+    'wang-2017-figure-4'
+    """
+    return names_in(_FOLDER)
+
+
+def load_experiment(experiment: str | PathLike[str]) -> Experiment:
+    """Return an experiment out of its file.
+
+    >>> print(load_experiment("wang-2017-table-1").source)
+    M. Wang et al., Optics Express 25(19), 2017, table 1
+    """
+    see = "`optipath surface reproduce --list`"
+    text, path = text_and_file(experiment, "experiment", _FOLDER, see)
+    return described(text, path, _TOP, [*_NEEDED], partial(_experiment, str(experiment)))
+
+
+_NEEDED = {"description": str, "source": str, "sample": str, "measurements": list}
+_TOP = {"format": int, **_NEEDED, "wavelengths": list, "photons": int, "sensor": int}
+_LIMITS = dict.fromkeys(("within", "brighter_than", "noise", "azimuth"), object)
+_BY_MEASURE = ("cells", "stokes", "brighter_than", "noise", "azimuth")
+_OF_ALL = {"measure": str, "text": str, "incidence": list}
+_MEASUREMENT = {**_OF_ALL, "published": list, "cells": int, "stokes": list, **_LIMITS}
+
+_PLAIN = Sample([(1.5, 0.0)])
+"""On which directions and light are checked, whatever the sample of the experiment is."""
+
+
+def _experiment(name: str, document: dict[str, Any], folder: Path) -> Experiment:
+    more = {key: document[key] for key in ("photons", "sensor") if key in document}
+    faults = Faults(fault for key, value in more.items() for fault in whole_number(key, value))
+    named = document["sample"]  # By its name, or in a file beside that of the experiment.
+    where = folder / named if named.endswith(".toml") else named
+    sample = faults.attempt("sample", load_sample, where)
+    wavelengths = tuple(map(str, document.get("wavelengths", ())))
+    if sample is not None:
+        faults.attempt("wavelengths", sample.indices, [*wavelengths] or None)
+    results: list[Measurement] = []
+    for at, table in enumerate(document["measurements"]):
+        where = f"measurements[{at}]"
+        results += faults.attempt(where, _measurements, table, sample, wavelengths) or []
+    if faults or sample is None:
+        raise SurfaceError(*dict.fromkeys(faults))
+    about = document["description"], document["source"], sample
+    return Experiment(name, *about, tuple(results), **more)
+
+
+def _measurements(
+    table: Any, sample: Sample | None, wavelengths: tuple[str, ...]
+) -> list[Measurement]:
+    """Return a measurement for each angle of incidence."""
+    checked_table(table, _MEASUREMENT, [*_OF_ALL])
+    measure, angles, cells = table["measure"], table["incidence"], table.get("cells")
+    stokes = tuple(table.get("stokes", UNPOLARISED))
+    faults = Faults(unknown("measure", measure, MEASURES))
+    if not faults:
+        if len(wavelengths) > 1 and not MEASURES[measure].several:
+            faults.append(f"measure '{measure}' is of one wavelength, not of {len(wavelengths)}")
+        faults += [
+            f"'{key}' is given, but measure '{measure}' does not depend on it; leave it out"
+            for key in _BY_MEASURE
+            if key in table and key not in MEASURES[measure].takes
+        ]
+    for name in _LIMITS:
+        largest = ANY_AZIMUTH if name == "azimuth" else float("inf")
+        if not 0.0 <= _number(table.get(name, 0.0)) <= largest:
+            upto = f" to {largest:g}, in degrees" if name == "azimuth" else ""
+            faults.append(f"'{name}' is {shown(table[name])}; write a number from 0{upto}")
+    if cells is not None and sample is not None:
+        faults.attempt("", replace, sample, cells=cells)
+    for angle in angles:
+        if isinstance(angle, str):
+            faults.attempt("", beam_of, _PLAIN, angle, stokes=stokes)
+        else:
+            faults.append(f'incidence: {shown(angle)} is no text; write one such as "60 deg"')
+    numbers = table.get("published")
+    published: list[Any] = [_range(one) for one in numbers] if numbers else [None] * len(angles)
+    if len(published) != len(angles) or any(each and not each[0] <= each[1] for each in published):
+        faults.append(
+            f"published is {shown(numbers)}; write a number, or [LEAST, LARGEST], for each of the "
+            f"{len(angles)} angles of incidence"
+        )
+    if faults:
+        raise SurfaceError(*dict.fromkeys(faults))
+    limits: dict[str, Any] = {name: float(table[name]) for name in _LIMITS if name in table}
+    walks = [Walks(angle, wavelengths, cells) for angle in angles]
+    return [
+        Measurement(measure, table["text"], each, number, stokes=stokes, **limits)
+        for each, number in zip(walks, published, strict=True)
+    ]
+
+
+def _number(value: Any) -> float:
+    """Return a real number; NaN, which is within no limits, for what is none."""
+    result = real_number(value)
+    return float("nan") if result is None else result
+
+
+def _range(published: Any) -> tuple[float, float]:
+    is_pair = isinstance(published, list) and len(published) == 2
+    least, largest = published if is_pair else (published, published)
+    return _number(least), _number(largest)

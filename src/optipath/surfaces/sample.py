@@ -11,8 +11,8 @@ from optipath.elements.layer_stack import LayerStack
 from optipath.errors import SurfaceError
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
-from optipath.surfaces.field_arguments import cells_of
 from optipath.surfaces.height_field import HeightField
+from optipath.surfaces.random_field import cells_of
 from optipath.surfaces.sample_layers import indices_of, layers_of, medium_of
 from optipath.values.arrays import Unchanging, same_fields
 from optipath.values.parameters import Parameter
@@ -61,11 +61,6 @@ class Sample(Unchanging):
         Whether random fields go on beyond their border, so that no light is lost there.
     description : str, optional
         One line about it, as its file has it.
-
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
 
     Examples
     --------
@@ -117,30 +112,11 @@ class Sample(Unchanging):
         return all(layer.is_flat for layer in self.layers)
 
     def fields(self, surface: int = 0) -> tuple[HeightField, ...]:
-        """Return the heights of all interfaces, from the top.
+        """Return the heights of all interfaces, from the top, for a realisation of random ones.
 
-        Parameters
-        ----------
-        surface : int, optional
-            Which realisation of those that are random, from 0. As many as take turns are kept;
-            others are drawn when they are asked for, with the same bits.
+        As many as take turns are kept; others are drawn when they are asked for, with the same
+        bits. A `MeshWarning` tells of too few cells for the roughness.
 
-        Returns
-        -------
-        tuple of HeightField
-
-        Raises
-        ------
-        SurfaceError
-            If there is no memory for it.
-
-        Warns
-        -----
-        MeshWarning
-            If there are too few cells for the roughness.
-
-        Examples
-        --------
         >>> Sample([(1.5, 0.25)], cells=320).fields(3)
         (HeightField.beckmann of alpha (0.25, 0.25), 320 x 320 cells, 320 x 320, periodic,)
         """
@@ -155,26 +131,11 @@ class Sample(Unchanging):
     def indices(self, wavelength: Any = None) -> SampleIndices:
         """Return the indices of refraction of all media.
 
-        Parameters
-        ----------
-        wavelength : float, str or array_like, optional
-            In vacuum, in metres or as a text such as ``"550 nm"``; for media that depend on it.
-            Where there are several, the base alone may, and must be opaque.
+        The wavelength in vacuum, in metres or as a text such as ``"550 nm"``, is for media that
+        depend on it. Where there are several, the base alone may, and must be opaque. The numbers
+        ``outside`` and ``inner`` are floats; ``n`` and ``k`` of the base have the shape of the
+        wavelengths.
 
-        Returns
-        -------
-        SampleIndices
-            ``outside`` and ``inner``, which are floats, and ``n`` and ``k`` of the base, arrays of
-            the shape of the wavelengths.
-
-        Raises
-        ------
-        SurfaceError
-            If a wavelength is missing, or given and not asked for; if a medium is not known there,
-            or absorbs and is not the last; if light of several wavelengths would go several ways.
-
-        Examples
-        --------
         >>> Sample([(1.5, 0.1), (0.5 + 2.1j, 0.3)]).indices()
         SampleIndices(outside=1.0, inner=(1.5,), n=array(0.5), k=array(2.1))
         """
@@ -183,18 +144,8 @@ class Sample(Unchanging):
     def smooth(self, incidence: Any = None) -> LayerStack:
         """Return the same media with flat interfaces, between which light goes to and fro.
 
-        Parameters
-        ----------
-        incidence : float, str, array_like or Parameter, optional
-            The angle of incidence in radians; the parameter ``incidence`` by default.
+        The angle of incidence is in radians; the parameter ``incidence`` by default.
 
-        Returns
-        -------
-        LayerStack
-            The medium above first.
-
-        Examples
-        --------
         >>> stack = Sample([(1.5, 0.1), (2.4, 0.1)]).smooth("65 deg")
         >>> print(stack.mueller("in", "reflected").matrix[0, 0].round(5))
         0.16024
@@ -219,19 +170,8 @@ class Sample(Unchanging):
         ----------
         number : int
             Which photon, from 0. Those of its block of 16384 that come before it are walked, too.
-        incidence : float or str, optional
-            The angle of incidence in radians, 0 up to pi/2, or a text such as ``"60 deg"``.
-        seed : int, optional
-            That which `energy` is given.
-        azimuth : float or str, optional
-            Towards which side the light goes, from x towards y of the sample. On an isotropic
-            sample each photon has an azimuth of its own.
-        wavelength : float, str or array_like, optional
-            In metres, or ``"550 nm"``, where an index depends on it; several as `energy` has them.
-        stokes : array_like, optional
-            The Stokes vector of the light, the x of its frame horizontal; unpolarised by default.
-        most_events : int, optional
-            After how many events it is given up.
+        incidence, seed, azimuth, wavelength, stokes, most_events : optional
+            As `energy` takes them. On an isotropic sample each photon has an azimuth of its own.
 
         Returns
         -------
@@ -251,28 +191,16 @@ class Sample(Unchanging):
         >>> print(photon.events[0].onwards[2].round(6))
         -0.90353
         """
-        from optipath.surfaces.photon import (  # noqa: PLC0415 - replays samples
-            replayed_photon,
-        )
+        from optipath.surfaces import photon  # noqa: PLC0415 - replays samples
 
-        return replayed_photon(
-            self,
-            number,
-            incidence,
-            seed=seed,
-            azimuth=azimuth,
-            wavelength=wavelength,
-            stokes=stokes,
-            most_events=most_events,
-        )
+        light = {"azimuth": azimuth, "wavelength": wavelength, "stokes": stokes}
+        options = light | {"seed": seed, "most_events": most_events}
+        return photon.replayed_photon(self, number, incidence, **options)
 
     def to_toml(self) -> str:
         """Return the sample as the text of a file; `load_sample` gives the sample back.
 
-        Raises
-        ------
-        SurfaceError
-            If heights stand in no file, or a material has no form in files.
+        Heights that are in no file, and materials without a form in files, are refused.
         """
         from optipath.surfaces.sample_files import toml_of  # noqa: PLC0415 - reads samples
 

@@ -102,8 +102,7 @@ def described(
         raise SurfaceError(*error.faults) from None
     try:
         checked_table(document, known, ("format", *needed))
-        if document["format"] != FORMAT:
-            number = document["format"]
+        if (number := document["format"]) != FORMAT:
             raise SurfaceError(f"format is {number}, but this version reads format {FORMAT}")
         return made(document, path.parent)
     except OptipathError as error:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.errors import Cure, Fault, OptipathError, SurfaceError, shown
+from optipath.errors import Cure, Fault, SurfaceError, shown
 from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
 from optipath.paths.files.schema import Faults
@@ -76,29 +76,19 @@ def layers_of(argument: Any, faults: Faults) -> tuple[SampleLayer, ...]:
             f"index of refraction below it and its roughness, such as [(1.5, 0.1)]"
         )
         return ()
-    last = len(argument) - 1
-    results = [
-        faults.attempt("", _layer_of, f"layers[{place}]", layer, clear=place < last)
-        for place, layer in enumerate(argument)
-    ]
-    return tuple([layer for layer in results if layer is not None])
-
-
-def _layer_of(owner: str, argument: Any, *, clear: bool) -> SampleLayer:
-    file = ""
-    if isinstance(argument, SampleLayer):
-        argument, file = (argument.index, argument.roughness), argument.file
-    if not isinstance(argument, (tuple, list)) or len(argument) != 2:
-        raise SurfaceError(
-            f"{owner} is {shown(argument)}; give a pair of the index of refraction below and the "
-            f"roughness, such as (1.5, 0.1)"
-        )
-    faults = Faults()
-    index = faults.attempt("", medium_of, f"{owner}.index", argument[0], clear=clear)
-    roughness = faults.attempt("", _roughness_of, f"{owner}.alpha", argument[1])
-    if faults or index is None or roughness is None:
-        raise SurfaceError(*faults)
-    return SampleLayer(index, roughness, file)
+    results = []
+    for place, layer in enumerate(argument):
+        owner, clear, file = f"layers[{place}]", place < len(argument) - 1, ""
+        pair = layer
+        if isinstance(layer, SampleLayer):
+            pair, file = (layer.index, layer.roughness), layer.file
+        if not isinstance(pair, (tuple, list)) or len(pair) != 2:
+            faults.append(f"{owner} is {shown(layer)}; give an index and a roughness: (1.5, 0.1)")
+            continue
+        index: Any = faults.attempt("", medium_of, f"{owner}.index", pair[0], clear=clear)
+        rough: Any = faults.attempt("", _roughness_of, f"{owner}.alpha", pair[1])
+        results.append(SampleLayer(index, rough, file))
+    return () if faults else tuple(results)
 
 
 def _roughness_of(owner: str, argument: Any) -> Roughness:
@@ -119,16 +109,15 @@ def _roughness_of(owner: str, argument: Any) -> Roughness:
 
 
 def medium_of(owner: str, value: Any, *, clear: bool) -> float | complex | Material:
-    """Return a medium as a sample keeps it; one that is clear does not absorb.
-
-    >>> medium_of("outside", Material(1.5), clear=True), medium_of("base", "0.5+2.1j", clear=False)
-    (1.5, (0.5+2.1j))
-    """
-    if names := _open_names(value):
-        raise SurfaceError(
-            f"{owner} follows from the parameter '{names[0]}'; give numbers, or a Material that "
-            f"follows from the wavelength alone, made without wavelength=..."
-        )
+    """Return a medium as a sample keeps it; one that is clear does not absorb."""
+    parts = [part.depends_on if isinstance(part, CurveValue) else (part,) for part in _parts(value)]
+    known = [one for part in parts for one in part if isinstance(one, Parameter)]
+    for one in known:
+        if one != Wavelength():
+            raise SurfaceError(
+                f"{owner} follows from the parameter '{one.name}'; give numbers, or a Material "
+                f"that follows from the wavelength alone, made without wavelength=..."
+            )
     if isinstance(value, Material) and depends_on_wavelength(value):
         return value
     several = isinstance(value, (list, tuple)) or is_traced(value)
@@ -154,14 +143,6 @@ def depends_on_wavelength(medium: Any) -> bool:
 
 def _parts(medium: Any) -> tuple[Any, ...]:
     return (medium.n, medium.k) if isinstance(medium, Material) else (medium,)
-
-
-def _open_names(medium: Any) -> list[str]:
-    """Return the parameters that a medium follows from, but for the usual wavelength."""
-    parts = _parts(medium)
-    several = [part.depends_on if isinstance(part, CurveValue) else (part,) for part in parts]
-    known = [one for each in several for one in each if isinstance(one, Parameter)]
-    return [one.name for one in known if one != Wavelength()]
 
 
 def _refuse_absorbing(owner: str, index: npt.NDArray[Any]) -> None:
@@ -203,46 +184,40 @@ def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
     if is_traced(wavelength):
         raise SurfaceError("wavelength is traced by JAX, but samples have no slopes; give a number")
     *above, base = media
-    faults, results = Faults(), dict[str, Any]()
-    for place, medium in media.items():
-        results[place] = faults.attempt(
-            "", _index_at, place, medium, wavelength, clear=place != base
-        )
+    faults = Faults()
+    results: dict[str, Any] = {
+        place: faults.attempt("", _index_at, place, medium, wavelength, clear=place != base)
+        for place, medium in media.items()
+    }
     if faults:
         raise SurfaceError(*dict.fromkeys(faults))
-    shape = np.broadcast_shapes(*(index.shape for index in results.values()))
-    n, k = (
-        np.array(np.broadcast_to(part, shape)) for part in (results[base].real, results[base].imag)
-    )
+    last = np.broadcast_arrays(*results.values())[-1]
+    n, k = np.array(last.real), np.array(last.imag)
     if not n.size:
         raise SurfaceError("wavelength is empty; give one or more")
-    faults += [
-        f"{place} differs from wavelength to wavelength, and so do the ways of light below it; "
-        f"give one wavelength at a time"
-        for place in above
-        if np.ptp(results[place].real)
-    ]
-    if np.size(results[base]) > 1 and not np.all(k):
-        faults.append(
-            f"{base} lets light through, whose ways differ from wavelength to wavelength; give one "
-            f"wavelength at a time"
-        )
-    if faults:
-        raise SurfaceError(*faults)
+    several = [place for place in above if np.ptp(results[place].real)]
+    several += [base] if results[base].size > 1 and not np.all(k) else []
+    if several:
+        raise SurfaceError(*(_ONE_AT_A_TIME.format(place) for place in several))
     outside, *inner = [float(results[place].real.flat[0]) for place in above]
     return SampleIndices(outside, tuple(inner), n, k)
+
+
+_ONE_AT_A_TIME = (
+    "{} lets light through, whose ways differ from wavelength to wavelength; give one wavelength "
+    "at a time"
+)
 
 
 def _index_at(place: str, medium: Any, wavelength: Any, *, clear: bool) -> npt.NDArray[Any]:
     """Return the index n + ik of a medium at the wavelengths that are given."""
     if not depends_on_wavelength(medium):
         return np.asarray(medium, complex)
-    try:
-        there = medium.at(wavelength)
-    except OptipathError as error:
-        raise SurfaceError(*(fault.under(place) for fault in error.faults)) from None
-    index = np.asarray(there.n) + 1j * np.asarray(there.k)
-    index = INDEX.check(place, index)
+    faults = Faults()
+    there: Any = faults.attempt(place, medium.at, wavelength)
+    if faults:
+        raise SurfaceError(*faults)
+    index = INDEX.check(place, np.asarray(there.n) + 1j * np.asarray(there.k))
     if clear:
         _refuse_absorbing(place, index)
     return index

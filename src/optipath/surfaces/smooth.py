@@ -79,11 +79,6 @@ def smooth_exit(
 
     The limit of nearly flat interfaces: light is refracted in, reflected by the facet halfway
     between the two directions, and refracted out, all in one plane. Angles in radians.
-
-    >>> from optipath.surfaces.sample import Sample
-    >>> sample = Sample([(1.5, 0.1), (2.4, 0.1)])
-    >>> print((-100.0 * smooth_exit(sample, np.radians([50, 65]), np.radians(80))).round(1))
-    [14.6 19.9]
     """
     indices = sample.indices(wavelengths)
     media: list[Any] = [indices.outside, *indices.inner, indices.base][: depth + 2]
@@ -118,15 +113,10 @@ def flat_light(seen: SensedBeam) -> PartSums:
         scalar = np.broadcast_to(polarization(path, **angle).scalar, (lights,))
         numbers = np.column_stack([matrices.reshape(lights, 16), scalar])
         image = result.sums[0, place].reshape(-1, *seen.shape[-2:])
-        image[seen.sensor.place(_direction(seen, side))] = numbers[:, stored[seen.polarized]]
+        azimuth, sin, cos = beam.plane_azimuth, beam.sin, beam.cos
+        if side == "transmitted":  # Along the sample where none is let through.
+            sin = min(beam.smooth_sine(SIDES[side]), 1.0)
+            cos = -np.sqrt((1.0 - sin) * (1.0 + sin))
+        direction = sin * np.cos(azimuth), sin * np.sin(azimuth), cos
+        image[seen.sensor.place(direction)] = numbers[:, stored[seen.polarized]]
     return result
-
-
-def _direction(seen: SensedBeam, side: str) -> Numbers:
-    """Return where light goes, by Snell's law; along the sample where none is let through."""
-    beam = seen.beam
-    azimuth, sin, cos = beam.plane_azimuth, beam.sin, beam.cos
-    if side == "transmitted":
-        sin = min(beam.smooth_sine(SIDES[side]), 1.0)
-        cos = -np.sqrt((1.0 - sin) * (1.0 + sin))
-    return np.array([sin * np.cos(azimuth), sin * np.sin(azimuth), cos])

@@ -39,8 +39,9 @@ class BrdfOfHemispheres:
         for each in hemispheres:
             if not isinstance(each, Hemisphere):
                 raise SurfaceError(f"{shown(each)} is no hemisphere; give what op.measure returns")
-        results = tuple(sorted(hemispheres, key=_incidence))
-        if len({_incidence(each) for each in results}) < max(len(results), 2):
+        results = tuple(sorted(hemispheres, key=lambda each: each.seen.beam.incidence))
+        angles = {each.seen.beam.incidence for each in results}
+        if len(angles) < max(len(results), 2):
             raise SurfaceError(
                 "hemispheres are from too few incidences, or from one of them twice; measure at "
                 "several, such as every 5 deg from 0 to 85 deg"
@@ -68,7 +69,7 @@ class BrdfOfHemispheres:
         to_light, to_eye = -before.z, behind.z
         half = to_light + to_eye
         half = half / np.linalg.norm(half, axis=-1, keepdims=True)
-        known = np.array([_incidence(each) for each in self.hemispheres])
+        known = np.array([each.seen.beam.incidence for each in self.hemispheres])
         place = np.interp(np.arccos(to_light[:, 2]), known, np.arange(len(known)))
         matrices = np.zeros((len(half), len(self.wavelengths), 4, 4))
         errors = np.zeros(matrices.shape[:2])
@@ -82,11 +83,6 @@ class BrdfOfHemispheres:
             errors[near] += share[near][:, None] * result[1]
         over = (to_light[:, 2] * to_eye[:, 2])[:, None]
         return matrices / over[..., None, None], errors / over
-
-
-def _incidence(hemisphere: Hemisphere) -> float:
-    beam = hemisphere.seen.beam
-    return float(np.arctan2(beam.sin, beam.cos))
 
 
 def _by_same_facet(

@@ -17,7 +17,7 @@ import xarray as xr
 from optipath.errors import OptipathError, SurfaceError, shown
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.arrays import PIXELS
-from optipath.surfaces.hemisphere.beam import NUMBERS, STATES, PartSums, SensedBeam
+from optipath.surfaces.hemisphere.beam import NUMBERS, OF_BEAM, STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.sample import Sample
@@ -37,7 +37,6 @@ LAYOUT = 1
 """The version of what is in such a file."""
 
 _SUMS = ("part", *PIXELS, "number")
-_OF_BEAM = "cos", "sin", "azimuth", "seed", "most_events"
 
 
 def stored_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
@@ -51,7 +50,14 @@ def stored_hemisphere(hemisphere: Hemisphere) -> xr.Dataset:
         index_k=("wavelength", indices.k.ravel(), {"long_name": "k of the last medium"}),
     )
     result = result.assign_coords(number=list(NUMBERS[hemisphere.seen.polarized]))
-    result.attrs = result.attrs | {MEASUREMENT: json.dumps(_measurement(hemisphere))}
+    measurement = {  # All of it that is no array; JSON keeps every bit of a float.
+        "layout": LAYOUT,
+        "sample": stored_sample(hemisphere.seen.beam.sample),
+        "wavelengths": indices.n.shape,
+        "symmetric": hemisphere.symmetric,
+        **hemisphere.seen.facts,
+    }
+    result.attrs = result.attrs | {MEASUREMENT: json.dumps(measurement)}
     if result.attrs["seed"] >= 2**63:  # Files have whole numbers of up to 64 bits.
         result.attrs["seed"] = str(result.attrs["seed"])
     # Words of a fixed length are in the specifications of all forms.
@@ -74,7 +80,7 @@ def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
         sample=sample_of(message["sample"], sample),  # type: ignore[arg-type]
         indices=SampleIndices(message["outside"], tuple(message["inner"]), n, k),
         states=(UNPOLARISED,) if message["polarized"] == "scalar" else STATES,
-        **{name: message[name] for name in _OF_BEAM},
+        **{name: message[name] for name in OF_BEAM},
     )
     sensor = Sensor(message["pixels"], message["projection"], message["parts"])
     seen = SensedBeam(beam, sensor, message["polarized"], message["events"])
@@ -82,17 +88,6 @@ def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
     if (sums.sums.shape, sums.counts.shape) != (seen.shape, seen.shape[1:4]):
         raise ValueError(sums.sums.shape)
     return Hemisphere(seen, sums, dataset.wavelength.to_numpy(), message["symmetric"])
-
-
-def _measurement(hemisphere: Hemisphere) -> dict[str, Any]:
-    """Return all of what a hemisphere is that is no array; JSON keeps every bit of a float."""
-    return {
-        "layout": LAYOUT,
-        "sample": stored_sample(hemisphere.seen.beam.sample),
-        "wavelengths": hemisphere.seen.beam.indices.n.shape,
-        "symmetric": hemisphere.symmetric,
-        **hemisphere.seen.facts,
-    }
 
 
 def stored_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
@@ -187,7 +182,7 @@ def write_netcdf(dataset: xr.Dataset, file: Path) -> None:
     """Write a Dataset as a file of NetCDF 4, compressed part by part."""
     packed: dict[str, Any] = {"zlib": True, "complevel": 4, "shuffle": True}
     encoding = {name: packed for name in dataset.data_vars if dataset[name].ndim > 1}
-    encoding["sums"] = packed | {"chunksizes": _chunks(dataset)}
+    encoding["sums"] = packed | {"chunksizes": (1, *dataset["sums"].shape[1:])}
     with drafted(file) as draft:
         dataset.to_netcdf(draft, engine="h5netcdf", encoding=encoding)
 
@@ -205,7 +200,7 @@ def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
     draft, old = (folder.with_name(f"{name}.{kind}") for kind in ("draft", "old"))
     try:
         # Version 2, whose words of a fixed length and joint metadata are in its specification.
-        encoding = {"sums": {"chunks": _chunks(dataset)}}
+        encoding = {"sums": {"chunks": (1, *dataset["sums"].shape[1:])}}
         dataset.to_zarr(draft, encoding=encoding, zarr_format=2, consolidated=True)
         if folder.exists():
             folder.rename(old)
@@ -224,11 +219,6 @@ def read_dataset(place: Path) -> xr.Dataset:
     with xr.open_dataset(place, chunks=None, **engine) as result:
         result.attrs[MEASUREMENT]  # Before any of its numbers is read.
         return result.load()
-
-
-def _chunks(dataset: xr.Dataset) -> tuple[int, ...]:
-    """Return the shape of the sums of one part."""
-    return (1, *dataset["sums"].shape[1:])
 
 
 def _is_hemisphere(folder: Path) -> bool:

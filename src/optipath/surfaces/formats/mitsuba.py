@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 from importlib.metadata import version
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,12 +15,13 @@ from optipath.light.conventions import changed_matrix
 from optipath.light.mueller import Mueller
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.formats.brdf import BrdfOfHemispheres, HalfAngles, in_frames
+from optipath.values.arrays import refuse_too_large
 from optipath.values.files import input_file, message_of, written_whole
 from optipath.values.precision import Numbers, is_whole
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
     from typing import IO
 
@@ -91,12 +92,13 @@ def write_measured_polarized(
     ...     file.read_bytes()[:11]
     b'tensor_file'
     """
-    faults = Faults()
-    place = faults.attempt("", _place, path)
+    faults, place = Faults(), input_file(path, SurfaceError)
+    if place.suffix != ".pbsdf":
+        faults.append(f"'{place}' is to be a .pbsdf file; give '{place.stem or 'a'}.pbsdf'")
     table = faults.attempt("", _table, brdf, wavelengths)
     if not (isinstance(shape, tuple) and len(shape) == 3 and all(is_whole(n, 2) for n in shape)):
         faults.append(f"shape is {shown(shape)}; give three whole numbers from 2 on, as {_SHAPE}")
-    if faults or place is None or table is None:
+    if faults or table is None:
         raise SurfaceError(*faults)
     colours, axes = _nanometres(table.wavelengths), HalfAngles.of(shape)
     if not description:
@@ -104,13 +106,6 @@ def write_measured_polarized(
         description = "; ".join(map(repr, several)) or "a polarised BRDF"
     with message_of(place, SurfaceError), written_whole(place) as stream:
         write_tensors(stream, _tensors(axes, colours, table, description))
-
-
-def _place(path: Any) -> Any:
-    place = input_file(path, SurfaceError)
-    if place.suffix != ".pbsdf":
-        raise SurfaceError(f"'{place}' is to be a .pbsdf file; give '{place.stem or 'a'}.pbsdf'")
-    return place
 
 
 def _table(brdf: Any, wavelengths: Any) -> BrdfFunction | BrdfOfHemispheres:
@@ -147,37 +142,26 @@ def _tensors(
     colours: npt.NDArray[np.uint16],
     table: BrdfFunction | BrdfOfHemispheres,
     description: str,
-) -> dict[str, Tensor]:
-    """Return the arrays of the file; matrices are computed while they are written."""
-    errors: list[npt.NDArray[np.float32]] = []
+) -> dict[str, npt.NDArray[Any]]:
+    """Return the arrays of the file."""
     shape = (*map(len, axes), len(colours))
-    written = f"{description}\nwritten by optipath {version('optipath')}"
-    text = np.frombuffer(written.encode(), np.uint8)
-    results = {"description": Tensor.of(text), "wvls": Tensor.of(colours)}
-    for name, each in axes._asdict().items():
-        results[name] = Tensor.of(each.astype(np.float32)[np.newaxis])
-    results["M"] = Tensor("float32", (*shape, 4, 4), _matrices(axes, table, errors))
-    if isinstance(table, BrdfOfHemispheres):
-        results["M00_se"] = Tensor("float32", shape, errors)
-    return results
-
-
-def _matrices(
-    axes: HalfAngles,
-    table: BrdfFunction | BrdfOfHemispheres,
-    errors: list[npt.NDArray[np.float32]],
-) -> Iterator[npt.NDArray[np.float32]]:
-    """Yield the matrices of one phi_d after the other; their errors are kept."""
+    refuse_too_large(shape, 68, "give a smaller shape", SurfaceError, "a table of {:.3g} matrices")
+    matrices = np.full((*shape, 4, 4), np.nan, np.float32)
+    errors = np.full(shape, np.nan, np.float32)
     for turn in range(len(axes.phi_d)):
         there, before, behind = axes.frames(turn)
-        matrices, noise = table.at(before, behind)
-        result = np.full((*there.shape, *matrices.shape[1:]), np.nan, np.float32)
-        result[there] = changed_matrix("mitsuba", matrices)
+        found, noise = table.at(before, behind)
+        matrices[turn][there] = changed_matrix("mitsuba", found)
         if noise is not None:
-            spread = np.full(result.shape[:3], np.nan, np.float32)
-            spread[there] = noise
-            errors.append(spread)
-        yield result
+            errors[turn][there] = noise
+    written = f"{description}\nwritten by optipath {version('optipath')}"
+    results: dict[str, npt.NDArray[Any]] = {
+        "description": np.frombuffer(written.encode(), np.uint8)
+    }
+    results["wvls"] = colours
+    results |= {name: each.astype(np.float32)[np.newaxis] for name, each in axes._asdict().items()}
+    measured = {"M00_se": errors} if isinstance(table, BrdfOfHemispheres) else {}
+    return {**results, "M": matrices, **measured}
 
 
 @dataclass(frozen=True)
@@ -207,20 +191,7 @@ _CODES = {"uint8": 1, "uint16": 3, "float32": 10}
 _ALIGNED = 8
 
 
-class Tensor(NamedTuple):
-    """An array of a tensor file, whose parts may be computed while it is written."""
-
-    type: str
-    shape: tuple[int, ...]
-    parts: Iterable[npt.NDArray[Any]]
-
-    @classmethod
-    def of(cls, array: npt.NDArray[Any]) -> Tensor:
-        """Return an array that is there as a whole."""
-        return cls(str(array.dtype), array.shape, (array,))
-
-
-def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
+def write_tensors(stream: IO[bytes], tensors: Mapping[str, npt.NDArray[Any]]) -> None:
     """Write a tensor file, as ``mitsuba.python.tensor_io`` of Mitsuba 3.9 does.
 
     Little-endian: the word ``tensor_file``, the version 1.0, how many arrays; of each the length
@@ -228,23 +199,21 @@ def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
     and its shape (64 each); then the arrays.
 
     >>> from io import BytesIO
-    >>> write_tensors(stream := BytesIO(), {"a": Tensor.of(np.array([1, 2], np.uint8))})
+    >>> write_tensors(stream := BytesIO(), {"a": np.array([1, 2], np.uint8)})
     >>> stream.getvalue()[:11], [*stream.getvalue()[-2:]]
     (b'tensor_file', [1, 2])
     """
-    names = {name: name.encode() for name in tensors}
-    heads = sum(2 + len(names[name]) + 11 + 8 * len(each.shape) for name, each in tensors.items())
+    heads = sum(2 + len(name.encode()) + 11 + 8 * each.ndim for name, each in tensors.items())
     place = len(_HEAD) + 4 + heads
     stream.write(_HEAD + struct.pack("<I", len(tensors)))
-    gaps = {}
     for name, each in tensors.items():
-        gaps[name] = -place % _ALIGNED
-        place += gaps[name]
-        stream.write(struct.pack("<H", len(names[name])) + names[name])
-        stream.write(struct.pack("<HBQ", len(each.shape), _CODES[each.type], place))
-        stream.write(struct.pack(f"<{len(each.shape)}Q", *each.shape))
-        place += int(np.prod(each.shape)) * np.dtype(each.type).itemsize
-    for name, each in tensors.items():
-        stream.write(bytes(gaps[name]))
-        for part in each.parts:
-            stream.write(np.ascontiguousarray(part, np.dtype(each.type).newbyteorder("<")).data)
+        place += -place % _ALIGNED
+        stream.write(struct.pack("<H", len(name.encode())) + name.encode())
+        stream.write(struct.pack("<HBQ", each.ndim, _CODES[each.dtype.name], place))
+        stream.write(struct.pack(f"<{each.ndim}Q", *each.shape))
+        place += each.nbytes
+    place = len(_HEAD) + 4 + heads
+    for each in tensors.values():
+        stream.write(bytes(-place % _ALIGNED))
+        stream.write(np.ascontiguousarray(each, each.dtype.newbyteorder("<")).data)
+        place += -place % _ALIGNED + each.nbytes

@@ -22,12 +22,12 @@ def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     """Return the Dataset of a hemisphere. Units: the result in radians."""
     sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
     results: dict[str, Any] = {}
-    if polarized != "scalar":
-        results |= _with_error("mueller", (*PIXELS, "out", "in"), hemisphere.mueller, _MUELLER)
-    if polarized != "polarized":
-        results |= _with_error("scalar", PIXELS, hemisphere.scalar, _SCALAR)
-    if polarized == "both":
-        results |= _with_error("difference", PIXELS, hemisphere.difference, _DIFFERENCE)
+    for name, (what, kinds) in _NUMBERS.items():
+        if polarized in kinds:
+            value, error = getattr(hemisphere, name)
+            dims = (*PIXELS, "out", "in") if name == "mueller" else PIXELS
+            results[name] = dims, value, {"long_name": what, "units": "1"}
+            results[f"{name}_se"] = dims, error, _of_error(name)
     results["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
     area = {"long_name": "solid angle of the pixel above the horizon", "units": "sr"}
     results["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
@@ -35,18 +35,25 @@ def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     return xr.Dataset(results, known, _attributes(hemisphere))
 
 
-_MUELLER = "Mueller matrix: share of the light on the sample that goes into the pixel"
-_SCALAR = "share of the light that goes into the pixel, without polarisation"
-_DIFFERENCE = "share of unpolarised light that goes into the pixel, less that without polarisation"
+_NUMBERS = {
+    "mueller": (
+        "Mueller matrix: share of the light on the sample that goes into the pixel",
+        ("both", "polarized"),
+    ),
+    "scalar": (
+        "share of the light that goes into the pixel, without polarisation",
+        ("both", "scalar"),
+    ),
+    "difference": (
+        "share of unpolarised light that goes into the pixel, less that without polarisation",
+        ("both",),
+    ),
+}
+"""What may be measured of pixels, and by which measurements it is."""
 
 
-def _with_error(name: str, dims: tuple[str, ...], result: Any, what: str) -> dict[str, Any]:
-    value, error = result
-    about = {"long_name": f"standard error of '{name}'", "units": "1"}
-    return {
-        name: (dims, value, {"long_name": what, "units": "1"}),
-        f"{name}_se": (dims, error, about),
-    }
+def _of_error(name: str, units: str = "1") -> dict[str, str]:
+    return {"long_name": f"standard error of '{name}'", "units": units}
 
 
 def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
@@ -57,7 +64,7 @@ def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
         sample = f"the sample cannot be written here, since it has no form in TOML: {fault}"
     return {
         "sample": sample,
-        "incidence": float(np.arctan2(beam.sin, beam.cos)),
+        "incidence": beam.incidence,
         "azimuth": "each photon its own" if beam.sample.isotropic else beam.azimuth,
         "photons": hemisphere.photons,
         "seed": beam.seed,
@@ -96,7 +103,7 @@ def difference_map(
     counts = counts.reshape(counts.shape + (1,) * (value.ndim - 2)) & mask.known(value, error)
     value, error = (np.where(counts, each, np.nan) for each in (value, error))
     dims = ("y", "x", "wavelength")[: value.ndim]
-    se = xr.Variable(dims, error, {"long_name": f"standard error of '{name}'", "units": "1"})
+    se = xr.Variable(dims, error, _of_error(name))
     known, sensor = error[counts & ~np.isnan(error)], hemisphere.sensor
     about = {
         "long_name": told,
@@ -146,7 +153,7 @@ def pixel_array(
     known = coordinates(hemisphere, dims)
     known["side"] = "side", known["side"][1][: len(value)]
     if error is not None:
-        known["se"] = dims, error, {"long_name": f"standard error of '{name}'", "units": units}
+        known["se"] = dims, error, _of_error(name, units)
     about = {"long_name": what, "units": units, "frame": FRAME, **attributes}
     return xr.DataArray(value, known, dims, name, about)
 

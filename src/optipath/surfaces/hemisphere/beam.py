@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
 from optipath.surfaces.ends import turned_directions
+from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import BLOCK, PORTION, walked_in_order
 from optipath.surfaces.walk.code import pixel_code
-from optipath.surfaces.walk.layout import DOWN, EVENTS, OUTCOME, UP
 from optipath.values.arrays import same_fields
 from optipath.values.precision import real_number
 
@@ -28,19 +28,17 @@ if TYPE_CHECKING:
 CHUNK = 1 << 22
 """How many photons are summed up by themselves: the least that is kept, or sent to a worker."""
 
-SIDES = {"reflected": UP, "transmitted": DOWN}
+SIDES = {"reflected": layout.UP, "transmitted": layout.DOWN}
 """What the hemispheres are called, and the ends of the photons that get there."""
 
-STATES = (
-    (1.0, 0.0, 0.0, 0.0),
-    (1.0, 1.0, 0.0, 0.0),
-    (1.0, 0.0, 1.0, 0.0),
-    (1.0, 0.0, 0.0, 1.0),
-)
+STATES = ((1.0, 0.0, 0.0, 0.0), (1.0, 1.0, 0.0, 0.0), (1.0, 0.0, 1.0, 0.0), (1.0, 0.0, 0.0, 1.0))
 """The states of the source that ride on one photon: between them they say its Mueller matrix."""
 
 
 _MATRIX = tuple(f"M{row}{column}" for row in range(4) for column in range(4))
+
+OF_BEAM = "cos", "sin", "azimuth", "seed", "most_events"
+"""What a file keeps of the photons besides sample, indices and states."""
 
 NUMBERS = {"both": (*_MATRIX, "scalar"), "polarized": _MATRIX, "scalar": ("scalar",)}
 """What may be measured, and the names of the numbers of a light that are summed up for it."""
@@ -72,15 +70,10 @@ class SensedBeam:
     @property
     def facts(self) -> dict[str, Any]:
         """All of what is measured but for the sample itself and the indices of its base."""
-        beam = self.beam
         return {
-            "cos": beam.cos,
-            "sin": beam.sin,
-            "azimuth": beam.azimuth,
-            "outside": beam.indices.outside,
-            "inner": beam.indices.inner,
-            "seed": beam.seed,
-            "most_events": beam.most_events,
+            **{name: getattr(self.beam, name) for name in OF_BEAM},
+            "outside": self.beam.indices.outside,
+            "inner": self.beam.indices.inner,
             **asdict(self.sensor),
             "polarized": self.polarized,
             "events": None if self.events is None else int(self.events),
@@ -91,10 +84,10 @@ class SensedBeam:
         number: int,
         photons: int,
         threads: int,
-        progress: Callable[[int], None] | None = None,
+        progress: Callable[[int, int], None] | None = None,
     ) -> PartSums:
         """Walk the photons of a chunk, and sum them up in their order."""
-        result, add = PartSums.none(self.shape), pixel_code()
+        result, add, done = PartSums.none(self.shape), pixel_code(), CHUNK * number
         stored = [int(self.polarized != other) for other in ("scalar", "polarized")]
         lights = self.beam.indices.n.size
         wanted = min(photons, CHUNK * (number + 1))
@@ -107,8 +100,9 @@ class SensedBeam:
                 pixels = places[places >= 0] % result.counts.size
                 result.counts.reshape(-1)[:] += np.bincount(pixels, minlength=result.counts.size)
                 result.photons[:] += np.bincount(parts, minlength=self.sensor.parts)
+                done += len(places)
                 if progress is not None:
-                    progress(len(places))
+                    progress(done, photons)
         return result
 
     def _seen(self, number: int, photons: int) -> tuple[npt.NDArray[Any], ...]:
@@ -117,9 +111,9 @@ class SensedBeam:
         k, _, turns = turned_directions(self.beam, ends)
         side = np.full(photons, -1)
         for place, name in enumerate(self.sides):
-            side[ends[:, OUTCOME] == SIDES[name]] = place
+            side[ends[:, layout.OUTCOME] == SIDES[name]] = place
         if self.events is not None:
-            side[ends[:, EVENTS] != self.events] = -1
+            side[ends[:, layout.EVENTS] != self.events] = -1
         parts = self._parts(number, photons)
         image = self.sensor.pixels**2
         places = (parts * len(self.sides) + side) * image + self.sensor.place(k)
@@ -197,9 +191,6 @@ class PixelMask:
     """Pixels that count where light with polarisation and without are compared.
 
     Without a mask, the largest difference would be that of dim or noisy pixels.
-
-    >>> print(PixelMask(brighter_than=0.5, noise=None))
-    light without polarisation above 0.5 of the mean over the hemisphere's pixels, any noise
     """
 
     brighter_than: float = 0.2
@@ -229,8 +220,7 @@ class PixelMask:
 
     def __str__(self) -> str:
         bright = f"light without polarisation above {self.brighter_than:g} of the mean over the"
-        noise = "any noise"
-        if self.noise is not None:
-            noise = f"standard error at most {self.noise:g} of the difference, or at most "
-            noise += f"{self.known_to:g}"
-        return f"{bright} hemisphere's pixels, {noise}"
+        known = f"of the difference, or at most {self.known_to:g}"
+        noise = self.noise
+        told = "any noise" if noise is None else f"standard error at most {noise:g} {known}"
+        return f"{bright} hemisphere's pixels, {told}"

@@ -87,21 +87,18 @@ class ChunkJob:
     def arrays(self) -> dict[str, StoredArray]:
         """The fields of `PartSums`, with the chunks before all other dimensions."""
         shape = self.seen.shape
-        kept = {
-            # Part by part, since codecs take no more than 2 GiB at a time.
-            "sums": (("part", *_PIXELS, "wavelength", "number"), shape, (1, *shape[1:]), _SUMS),
-            "counts": (_PIXELS, shape[1:4], shape[1:4], "photons of a pixel"),
-            "photons": (("part",), shape[:1], shape[:1], "photons of a part"),
-        }
+
+        def stored(what: str, dims: tuple[str, ...], *shapes: Any, kind: str = "int64") -> Any:
+            whole, part = (self.blocks, *shapes[0]), (1, *shapes[-1])
+            about = {"long_name": what, "units": "1"}
+            return StoredArray(("chunk", *dims), whole, part, kind, about)
+
+        # Part by part, since codecs take no more than 2 GiB at a time.
+        dims, part = ("part", *_PIXELS, "wavelength", "number"), (1, *shape[1:])
         return {
-            name: StoredArray(
-                ("chunk", *dims),
-                (self.blocks, *whole),
-                (1, *part),
-                "float64" if name == "sums" else "int64",
-                {"long_name": what, "units": "1"},
-            )
-            for name, (dims, whole, part, what) in kept.items()
+            "sums": stored(_SUMS, dims, shape, part, kind="float64"),
+            "counts": stored("photons of a pixel", _PIXELS, shape[1:4]),
+            "photons": stored("photons of a part", ("part",), shape[:1]),
         }
 
     @property

@@ -11,18 +11,20 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.elements.mueller_element import MuellerElement
-from optipath.errors import PhotonWarning, SurfaceError, ValueFault, shown, unknown
+from optipath.errors import OptipathError, PhotonWarning, SurfaceError, ValueFault, shown, unknown
 from optipath.kernels.facets import MASKINGS
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.quantities import DERIVED
-from optipath.surfaces.facet_model import alpha_of, reflected_once
-from optipath.surfaces.hemisphere.arguments import direction_of, wavelength_place
+from optipath.materials.quantities import ANGLE
+from optipath.surfaces.facet_model import alpha_of, frame_along, reflected_once
 from optipath.surfaces.hemisphere.beam import PixelMask
 from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
 from optipath.values.angles import calls_up
 from optipath.values.arrays import first_place, same
 from optipath.values.precision import Numbers, whole_number
+from optipath.values.units import format_quantity
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,6 +41,9 @@ ROUNDED = 64.0 * np.finfo(float).eps
 
 _FEW_PIXELS = 4.0
 """So near the normal frames turn so much within a pixel that a hundredth of S1, S2 is lost."""
+
+_SAME = 1e-9
+"""By how much of itself a wavelength may differ from the one that is meant."""
 
 _QUANTITIES = {each.variable: each for each in DERIVED}
 
@@ -95,9 +100,7 @@ class Hemisphere:
     @cached_property
     def dataset(self) -> xr.Dataset:
         """All of it with names, units and standard errors: see `hemisphere_dataset`."""
-        from optipath.surfaces.hemisphere import arrays  # noqa: PLC0415 - an extra
-
-        return arrays.hemisphere_dataset(self)
+        return _arrays().hemisphere_dataset(self)  # type: ignore[no-any-return]
 
     @property
     def sensor(self) -> Sensor:
@@ -134,21 +137,9 @@ class Hemisphere:
     def brdf(self, *, polarized: bool = True) -> xr.DataArray:
         """Return the light of each pixel per steradian, over the cosine of its centre.
 
-        Parameters
-        ----------
-        polarized : bool, optional
-            Whether it is the Mueller matrix, or what there is without polarisation.
-
-        Returns
-        -------
-        xarray.DataArray
-            In 1/sr, (side, y, x, wavelength, out, in) or without the last two; NaN where the
-            centre of a pixel is beyond the horizon. Of the lower hemisphere it is the BTDF.
-
-        Raises
-        ------
-        SurfaceError
-            If it has not been measured.
+        The Mueller matrix, (side, y, x, wavelength, out, in), or what there is without
+        polarisation; NaN where the centre of a pixel is beyond the horizon. Of the lower
+        hemisphere it is the BTDF.
 
         Examples
         --------
@@ -167,27 +158,12 @@ class Hemisphere:
         return self._array("brdf", (value, error), what, "1/sr", ("out", "in"))
 
     def stokes(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
-        """Return the Stokes vector of the light that goes into each pixel.
+        """Return the Stokes vector of the light that goes into each pixel, in its frame.
 
-        Parameters
-        ----------
-        source : array_like, shape (4,), optional
-            The Stokes vector of the light that comes in, in the frame whose x is horizontal;
-            unpolarised by default.
+        The source is the Stokes vector of the light that comes in, in the frame whose x is
+        horizontal; where its S0 is 1, it is the share of its light that goes into each pixel,
+        (side, y, x, wavelength, out).
 
-        Returns
-        -------
-        xarray.DataArray
-            (side, y, x, wavelength, out), in the frames of the pixels: where S0 of the source is
-            1, the share of its light that goes into each.
-
-        Raises
-        ------
-        SurfaceError
-            If no Mueller matrix has been measured, or the source is no light.
-
-        Examples
-        --------
         >>> import optipath as op
         >>> found = op.measure(op.Sample([(1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
         >>> light = found.stokes([1.0, 1.0, 0.0, 0.0]).sel(out="S0", side="reflected")
@@ -202,40 +178,15 @@ class Hemisphere:
     def dop(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
         """Return the degree of polarisation of each pixel; NaN where no light falls.
 
-        Noise makes it larger: where it is no larger than a few of its errors, it may be 0.
-
-        Parameters
-        ----------
-        source : array_like, shape (4,), optional
-            As `stokes` takes it.
-
-        Returns
-        -------
-        xarray.DataArray
-
-        Raises
-        ------
-        SurfaceError
-            As `stokes` does.
+        The source is as `stokes` takes it. Noise makes it larger: where it is no larger than a few
+        of its errors, it may be 0.
         """
         return self._quantity("DoP", source)
 
     def dolp(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
         """Return the degree of linear polarisation of each pixel; NaN where no light falls.
 
-        Parameters
-        ----------
-        source : array_like, shape (4,), optional
-            As `stokes` takes it.
-
-        Returns
-        -------
-        xarray.DataArray
-
-        Raises
-        ------
-        SurfaceError
-            As `stokes` does.
+        The source is as `stokes` takes it.
 
         Examples
         --------
@@ -248,27 +199,12 @@ class Hemisphere:
         return self._quantity("DoLP", source)
 
     def aop(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
-        """Return the angle of polarisation of each pixel; NaN where there is none.
+        """Return the angle of polarisation of each pixel in radians; NaN where there is none.
 
-        In full, in (-pi/2, pi/2], from x of the pixel's frame towards y; M. Wang et al., Optics
-        Express 25(19), 2017, fold it into 0 .. 45 deg. Its error knows that an angle a little
-        below pi/2 is near one a little above -pi/2; from 0.9 rad (52 deg) on, that of angles
-        anywhere, nothing is known of it.
-
-        Parameters
-        ----------
-        source : array_like, shape (4,), optional
-            As `stokes` takes it.
-
-        Returns
-        -------
-        xarray.DataArray
-            In radians.
-
-        Raises
-        ------
-        SurfaceError
-            As `stokes` does.
+        The source is as `stokes` takes it. In full, in (-pi/2, pi/2], from x of the pixel's frame
+        towards y; M. Wang et al., Optics Express 25(19), 2017, fold it into 0 .. 45 deg. Its
+        error knows that an angle a little below pi/2 is near one a little above -pi/2; from 0.9
+        rad (52 deg) on, that of angles anywhere, nothing is known of it.
         """
         return self._quantity("AoP", source, period=np.pi)
 
@@ -337,11 +273,6 @@ class Hemisphere:
         xarray.DataArray
             (y, x, wavelength); its standard error is its coordinate ``se``.
 
-        Raises
-        ------
-        SurfaceError
-            If one of the two was not measured, or what is given is none of the above.
-
         Examples
         --------
         >>> import optipath as op
@@ -349,8 +280,8 @@ class Hemisphere:
         >>> found.relative_difference().dims
         ('y', 'x', 'wavelength')
         """
-        mask = PixelMask(brighter_than, None)
-        return self._difference("relative_difference", "(S0 - U) / U", np.asarray, side, mask)
+        mask, told = PixelMask(brighter_than, None), "(S0 - U) / U"
+        return self._difference("relative_difference", told, np.asarray, side, mask)
 
     def adm(
         self,
@@ -428,21 +359,13 @@ error at most 0.2 of the difference, or at most 0.001
         -------
         xarray.DataArray
             (y, x); its standard error is its coordinate ``se``.
-
-        Raises
-        ------
-        SurfaceError
-            As `adm` raises it.
         """
         told = "largest |S0 - U| / U over wavelengths"
         mask = PixelMask(brighter_than, noise, known_to)
         return self._difference("mdm", told, lambda each: np.abs(each).max(axis=-1), side, mask)
 
     def toward(
-        self,
-        direction: Any,
-        side: str = "reflected",
-        wavelength: Any = None,
+        self, direction: Any, side: str = "reflected", wavelength: Any = None
     ) -> MuellerElement:
         """Return the sample as an element, by whose matrix light goes toward a direction.
 
@@ -489,7 +412,16 @@ error at most 0.2 of the difference, or at most 0.001
         True
         """
         pixels = self._toward(direction, side, wavelength)
-        self._warn_next_to_normal(direction, side)
+        z = self.frames_toward(direction, side)["out"].z
+        near = 0.5 * self.sensor.pixels * self.sensor.radius(z) < _FEW_PIXELS
+        if not self.seen.beam.sample.is_flat and np.any(near):
+            warnings.warn(
+                f"direction{first_place(near)} ({shown(direction)}) is within {_FEW_PIXELS:.0f} "
+                f"pixels of the normal, where frames turn within a pixel and linear polarisation "
+                f"is lost; measure with more and smaller pixels",
+                PhotonWarning,
+                calls_up(),
+            )
         matrices, _ = pixels.estimate(self.matrices)
         if np.any(dark := matrices[..., 0, 0] == 0.0):
             raise SurfaceError(
@@ -527,11 +459,6 @@ error at most 0.2 of the difference, or at most 0.001
         value, error : ndarray
             The error is that of the jackknife, as all of a hemisphere's.
 
-        Raises
-        ------
-        SurfaceError
-            As `toward` does; if ``found`` is no function, or does not return real numbers.
-
         Examples
         --------
         >>> import optipath as op
@@ -557,11 +484,6 @@ error at most 0.2 of the difference, or at most 0.001
         -------
         dict of str to Frame
             ``in`` and ``out``; z is up from the sample.
-
-        Raises
-        ------
-        SurfaceError
-            As `toward` does, of the direction.
 
         Examples
         --------
@@ -629,80 +551,27 @@ error at most 0.2 of the difference, or at most 0.001
         save_hemisphere(self, path, source, side)
 
     def matrices(self, light: Numbers) -> Numbers:
-        """Return the Mueller matrices among the numbers of `PartSums.estimate`.
-
-        Parameters
-        ----------
-        light : ndarray, shape (..., numbers)
-            The mean of all numbers.
-
-        Returns
-        -------
-        ndarray, shape (..., 4, 4)
-
-        Raises
-        ------
-        SurfaceError
-            If they have not been measured.
-        """
+        """Return the Mueller matrices (..., 4, 4) among the numbers of `PartSums.estimate`."""
         if self.seen.polarized == "scalar":
             raise SurfaceError(_missing("Mueller matrix", "polarized"))
         return light[..., :16].reshape(*light.shape[:-1], 4, 4)
 
     def intensities(self, light: Numbers) -> Numbers:
-        """Return the light without polarisation among the numbers of `PartSums.estimate`.
-
-        Parameters
-        ----------
-        light : ndarray, shape (..., numbers)
-            The mean of all numbers.
-
-        Returns
-        -------
-        ndarray, shape (...)
-
-        Raises
-        ------
-        SurfaceError
-            If it has not been measured.
-        """
+        """Return the light without polarisation among the numbers of `PartSums.estimate`."""
         if self.seen.polarized == "polarized":
             raise SurfaceError(_missing("light without polarisation", "scalar"))
         return light[..., -1]
 
     def scalar_light(self, side: int) -> Numbers:
-        """Return the light without polarisation by which pixels count.
+        """Return the light without polarisation by which pixels (rows, columns) of a side count.
 
-        Parameters
-        ----------
-        side : int
-            The place of the side.
-
-        Returns
-        -------
-        ndarray, shape (rows, columns)
-            The sum over photons, the mean over wavelengths; NaN beyond the horizon.
+        The sum over photons, the mean over wavelengths; NaN beyond the horizon.
         """
         light = self.intensities(self.own.sums.sum(axis=0))[side].mean(axis=-1)
         return np.where(np.isnan(self.sensor.theta), np.nan, light)
 
     def side(self, name: Any) -> int:
-        """Return the place of a hemisphere.
-
-        Parameters
-        ----------
-        name : {"reflected", "transmitted"}
-            Above the sample, or below.
-
-        Returns
-        -------
-        int
-
-        Raises
-        ------
-        SurfaceError
-            If no light gets there, or none is called so.
-        """
+        """Return the place of a hemisphere: that of "reflected" light, or "transmitted"."""
         sides = self.seen.sides
         if name not in sides:
             why = ": nothing goes through an opaque sample" if name == "transmitted" else ""
@@ -729,38 +598,21 @@ error at most 0.2 of the difference, or at most 0.001
         return self._array(name, (whole, error), quantity.name, quantity.unit, source=state)
 
     def _array(self, *arguments: Any, **attributes: Any) -> xr.DataArray:
-        from optipath.surfaces.hemisphere.arrays import pixel_array  # noqa: PLC0415 - an extra
-
-        return pixel_array(self, *arguments, **attributes)
+        return _arrays().pixel_array(self, *arguments, **attributes)  # type: ignore[no-any-return]
 
     def _difference(self, *arguments: Any) -> xr.DataArray:
-        from optipath.surfaces.hemisphere.arrays import difference_map  # noqa: PLC0415 - an extra
-
-        return difference_map(self, *arguments)
+        return _arrays().difference_map(self, *arguments)  # type: ignore[no-any-return]
 
     def _toward(self, direction: Any, side: str, wavelength: Any) -> PartSums:
         """Return the sums over the pixels of each direction."""
-        place = self.side(side)
-        frame = direction_of(direction, self.seen.beam.plane_azimuth, up=side == "reflected")
+        place, z = self.side(side), self.frames_toward(direction, side)["out"].z
         light = wavelength_place(self.wavelengths, wavelength)
         sums = self.own.sums[:, place, :, :, light]
-        pixels = [self.sensor.around(z) for z in frame.z.reshape(-1, 3)]
+        pixels = [self.sensor.around(each) for each in z.reshape(-1, 3)]
         results = [sums[:, rows, columns].sum(axis=1) for rows, columns in pixels]
-        shape = (len(sums), *frame.z.shape[:-1], sums.shape[-1])
+        shape = (len(sums), *z.shape[:-1], sums.shape[-1])
         seen: PartSums = self.own._replace(sums=np.stack(results, axis=1).reshape(shape))
         return seen
-
-    def _warn_next_to_normal(self, direction: Any, side: str) -> None:
-        z = direction_of(direction, self.seen.beam.plane_azimuth, up=side == "reflected").z
-        radius = 0.5 * self.sensor.pixels * self.sensor.radius(z)
-        if not self.seen.beam.sample.is_flat and np.any(near := radius < _FEW_PIXELS):
-            warnings.warn(
-                f"direction{first_place(near)} ({shown(direction)}) is within {_FEW_PIXELS:.0f} "
-                f"pixels of the normal, where frames turn within a pixel and linear polarisation "
-                f"is lost; measure with more and smaller pixels",
-                PhotonWarning,
-                calls_up(),
-            )
 
     def __eq__(self, other: object) -> Any:
         if not isinstance(other, Hemisphere):
@@ -774,12 +626,64 @@ error at most 0.2 of the difference, or at most 0.001
 
     def __repr__(self) -> str:
         pixels, beam = self.sensor.pixels, self.seen.beam
-        angle = np.degrees(np.arctan2(beam.sin, beam.cos))
+        of = f"{beam.sample!r} at {np.degrees(beam.incidence):.4g} deg"
         known = f"{self.photons} photons" if self.photons else "known without photons"
-        return (
-            f"Hemisphere of {beam.sample!r} at {angle:.4g} deg, {pixels} x {pixels} pixels, {known}"
-        )
+        return f"Hemisphere of {of}, {pixels} x {pixels} pixels, {known}"
+
+
+def _arrays() -> Any:
+    from optipath.surfaces.hemisphere import arrays  # noqa: PLC0415 - an extra
+
+    return arrays
 
 
 def _missing(what: str, kind: str) -> str:
     return f"the {what} has not been measured; measure with polarized='both' or '{kind}'"
+
+
+def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
+    """Return the frame of light toward a direction, or several (..., 3).
+
+    >>> print(direction_of(["30 deg", "-30 deg"], 0.0, up=True).z.round(6))
+    [[ 0.5       0.        0.866025]
+     [-0.5       0.        0.866025]]
+    """
+    try:
+        entries = np.asarray(argument, dtype=object)
+        # An angle, or several as texts; numbers in a row are a vector.
+        if entries.ndim == 0 or isinstance(next(entries.flat, None), str):
+            angle = np.asarray(ANGLE.check("direction", argument))
+            # From 3 quarter turns on, a vector would point to the right side again.
+            if np.any(beyond := np.abs(angle) >= np.pi / 2.0):
+                worst = float(angle[beyond].flat[0])
+                raise SurfaceError(
+                    f"direction is {worst:.6g} rad ({np.degrees(worst):.6g} deg) from the normal; "
+                    f"give an angle in the plane of incidence below 90 deg, such as '45 deg'"
+                )
+            sin, height = np.sin(angle), np.cos(angle) if up else -np.cos(angle)
+            # Adding 0 turns -0 into 0.
+            parts = [sin * np.cos(azimuth), sin * np.sin(azimuth), height]
+            argument = np.stack(parts, axis=-1) + 0.0
+        return frame_along("direction", argument, up=up)
+    except OptipathError as fault:
+        raise SurfaceError(*fault.faults) from None
+
+
+def wavelength_place(known: Numbers, argument: Any) -> int:
+    """Return the place of a wavelength among measured ones, in metres.
+
+    >>> wavelength_place(np.array([4e-7, 5e-7]), "500 nm")
+    1
+    """
+    if argument is None and len(known) == 1:
+        return 0
+    try:
+        wanted = np.ravel(np.nan if argument is None else Wavelength().resolve(argument).value)
+    except OptipathError as fault:
+        raise SurfaceError(*fault.faults) from None
+    nearest = int(np.argmin(np.abs(known - wanted[0]))) if wanted.size == 1 else 0
+    if wanted.size != 1 or not abs(known[nearest] - wanted[0]) <= _SAME * wanted[0]:
+        several = " or ".join(format_quantity(float(each), "nm") for each in known)
+        which = "none, since nothing of the sample depends on it" if np.isnan(known[0]) else several
+        raise SurfaceError(f"wavelength is {shown(argument)}, and measured is {which}; give that")
+    return nearest

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +12,13 @@ from optipath.errors import SurfaceError, need, shown, unknown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.energy_shares import processors
-from optipath.surfaces.hemisphere.arguments import store_argument
 from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.smooth import flat_light
 from optipath.surfaces.walk.beam import MOST_PHOTONS, MOST_THREADS, UNPOLARISED, beam_of
 from optipath.values.arrays import refuse_too_large
+from optipath.values.files import input_file
 from optipath.values.precision import whole_number
 from optipath.values.wavelength import Wavelength
 
@@ -63,10 +64,8 @@ def measure(
 
     Parameters
     ----------
-    sample : Sample
-        What the light falls on.
-    incidence : float or str
-        The angle of incidence in radians, 0 up to pi/2, or a text such as ``"60 deg"``.
+    sample, incidence, seed, most_events, progress
+        As `energy` takes them.
     photons : int, optional
         How many photons are walked; 2^22, some 4 million, by default.
     wavelengths : float, str or array_like, optional
@@ -74,8 +73,6 @@ def measure(
         same photons where the base alone depends on them, and is opaque.
     sensor : Sensor, int or str, optional
         The pixels, or how many there are along a side, or their projection.
-    seed : int, optional
-        The same seed gives the same bits, with any number of threads.
     polarized : {"both", "polarized", "scalar"}, optional
         What is measured: Mueller matrices, what light does without polarisation, or both on the
         same photons, whose difference then has a far smaller error than two separate runs.
@@ -88,8 +85,6 @@ def measure(
         Whether the two sides of the plane of incidence are taken to be mirror images, which
         halves the variance; by default where the sample is isotropic and rough. One with a
         direction may be so from 0 and 180 deg, as where ``alpha`` is a pair.
-    most_events : int, optional
-        After how many events a photon is given up.
     threads : int, optional
         How many walk at a time; as many as there are processors by default. Of what a `scheduler`
         computes, in each chunk; one by default.
@@ -100,8 +95,6 @@ def measure(
         What walks the chunks for a store, as `PathGraph.sweep` takes it: a client, the address of
         a cluster, ``"processes"``, ``"threads"`` or ``"synchronous"``, one chunk after the other;
         by default the client that is active, else this.
-    progress : callable, optional
-        Told how many photons there are, and of how many.
 
     Returns
     -------
@@ -109,8 +102,6 @@ def measure(
 
     Raises
     ------
-    SurfaceError
-        With all faults at once.
     JobError
         If the store holds another measurement, or cannot be written; if the scheduler is lost.
     MissingExtraError
@@ -133,15 +124,8 @@ def measure(
     mirrors = (
         None if symmetric is None else faults.attempt("", YES_OR_NO.check, "symmetric", symmetric)
     )
-    beam = beam_of(
-        sample,
-        incidence,
-        azimuth,
-        wavelength=wavelengths,
-        seed=seed,
-        most_events=most_events,
-        others=faults,
-    )
+    light: dict[str, Any] = {"wavelength": wavelengths, "seed": seed, "most_events": most_events}
+    beam = beam_of(sample, incidence, azimuth, **light, others=faults)
     assert pixels is not None  # noqa: S101 - or a fault has been raised
     if mirrors and not sample.isotropic and abs(np.sin(beam.azimuth)) > _IN_PLANE:
         raise SurfaceError(
@@ -151,13 +135,8 @@ def measure(
         )
     states = (UNPOLARISED,) if polarized == "scalar" else STATES
     seen = SensedBeam(replace(beam, states=states), pixels, polarized, events)
-    refuse_too_large(
-        seen.shape,
-        24,
-        cure="give fewer pixels, wavelengths or parts of the sensor",
-        error=SurfaceError,
-        what="hemisphere of {:.3g} numbers",
-    )
+    cure, what = "give fewer pixels, wavelengths or parts", "hemisphere of {:.3g} numbers"
+    refuse_too_large(seen.shape, 24, cure, SurfaceError, what)
     # Before photons are walked.
     stored = () if place is None else ("zarr", "dask", "distributed")
     need("hemispheres", "numba", "llvmlite", "xarray", *stored)
@@ -169,8 +148,9 @@ def measure(
     if is_known:
         sums = flat_light(seen)
     elif place is None:
-        walking = processors() if threads is None else int(threads)
-        sums = _summed(seen, int(photons), walking, progress)
+        walking, sums = processors() if threads is None else int(threads), PartSums.none(seen.shape)
+        for number in range(-(-int(photons) // CHUNK)):  # Added in their order.
+            sums.add(seen.chunk(number, int(photons), walking, progress))
     else:
         from optipath.surfaces.hemisphere import chunks  # noqa: PLC0415 - an extra
 
@@ -187,18 +167,19 @@ def progress_faults(progress: object) -> list[str]:
     return [f"progress is {shown(progress)}; give {wanted}"]
 
 
-def _summed(
-    seen: SensedBeam, photons: int, threads: int, progress: Callable[[int, int], None] | None
-) -> PartSums:
-    """Walk all chunks; each is summed up by itself, and they are added in their order."""
-    result, done = PartSums.none(seen.shape), 0
-
-    def tell(walked: int) -> None:
-        nonlocal done
-        done += walked
-        if progress is not None:
-            progress(done, photons)
-
-    for number in range(-(-photons // CHUNK)):
-        result.add(seen.chunk(number, photons, threads, tell))
-    return result
+def store_argument(store: Any, scheduler: Any) -> str | None:
+    """Return where a measurement is to be kept; None where it is not."""
+    if store is None:
+        if scheduler is not None:
+            raise SurfaceError(
+                "scheduler= is for a measurement that is kept; give store= besides, such as "
+                "store='hemisphere.zarr', or threads= for those of this process"
+            )
+        return None
+    if input_file(store, SurfaceError).suffix != ".zarr":
+        raise SurfaceError(
+            f"store {shown(str(store))} is no Zarr store; give a name that ends in .zarr, such as "
+            f"'hemisphere.zarr'"
+        )
+    place: str = os.fspath(store)
+    return place

@@ -41,11 +41,6 @@ class Sensor:
         Into how many parts of light a measurement is split, from whose spread all standard errors
         are found; memory grows with them.
 
-    Raises
-    ------
-    SurfaceError
-        With all faults at once.
-
     Examples
     --------
     >>> sensor = Sensor(64)
@@ -117,14 +112,7 @@ class Sensor:
     def place(self, directions: npt.ArrayLike) -> npt.NDArray[np.int64]:
         """Return the number of the pixel in which each direction is, rows one after the other.
 
-        Parameters
-        ----------
-        directions : array_like, shape (..., 3)
-            Unit vectors, upwards or downwards.
-
-        Returns
-        -------
-        ndarray of int, shape (...)
+        Directions are unit vectors (..., 3), upwards or downwards.
         """
         last = self.pixels - 1
         column, row = (np.clip(each.astype(np.int64), 0, last) for each in self.at(directions))
@@ -133,19 +121,9 @@ class Sensor:
     def around(self, direction: npt.ArrayLike) -> tuple[Places, Places]:
         """Return the pixel in which a direction is, or all those on whose border it is.
 
-        Parameters
-        ----------
-        direction : array_like, shape (3,)
-            A unit vector, upwards or downwards.
+        The rows and columns of one pixel, of two or of four: where there is an even number along
+        each side, all directions in the plane of incidence are on the border of two.
 
-        Returns
-        -------
-        rows, columns : ndarray of int, shape (pixels,)
-            Of one pixel, of two or of four: where there is an even number along each side, all
-            directions in the plane of incidence are on the border of two.
-
-        Examples
-        --------
         >>> print(*Sensor(64).around([0.6, 0.0, 0.8]), *Sensor(65).around([0.6, 0.0, 0.8]))
         [31 32] [45 45] [32] [45]
         """
@@ -157,32 +135,12 @@ class Sensor:
         return np.repeat(rows, len(columns)), np.tile(columns, len(rows))
 
     def radius(self, directions: npt.ArrayLike) -> Numbers:
-        """Return how far directions are from the normal on the image, of which the rim is 1.
-
-        Parameters
-        ----------
-        directions : array_like, shape (..., 3)
-            Unit vectors, upwards or downwards.
-
-        Returns
-        -------
-        ndarray, shape (...)
-        """
+        """Return how far directions are from the normal on the image, of which the rim is 1."""
         x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)
         return PROJECTIONS[self.projection].radius(np.hypot(x, y), np.abs(z))
 
     def at(self, directions: npt.ArrayLike) -> tuple[Numbers, Numbers]:
-        """Return where directions are, in columns and in rows from the corner.
-
-        Parameters
-        ----------
-        directions : array_like, shape (..., 3)
-            Unit vectors, upwards or downwards.
-
-        Returns
-        -------
-        columns, rows : ndarray, shape (...)
-        """
+        """Return where directions are, in columns and in rows from the corner."""
         x, y, _ = np.moveaxis(np.asarray(directions, float), -1, 0)
         sin = np.hypot(x, y)
         scale, half = self.radius(directions) / np.where(sin > 0.0, sin, 1.0), 0.5 * self.pixels
@@ -260,12 +218,6 @@ def pixel_points(sensor: Sensor, points: int) -> Iterator[tuple[Numbers, Numbers
     """Yield points^2 directions (pixels, pixels, 3), solid angles (pixels, pixels) in each pixel.
 
     By Gauss-Legendre quadrature along y, and along the part of x within the hemisphere.
-
-    >>> from optipath.surfaces.hemisphere.sensor import Sensor
-    >>> sensor = Sensor(16, "equal-area")
-    >>> found = sum(area for _, area in pixel_points(sensor, 4))
-    >>> print(abs(found - sensor.solid_angle)[4:12, 4:12].max() < 1e-15)
-    True
     """
     projection, half = PROJECTIONS[sensor.projection], 1.0 / sensor.pixels
     nodes, weights = np.polynomial.legendre.leggauss(points)

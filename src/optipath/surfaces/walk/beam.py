@@ -19,17 +19,8 @@ from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE, INCIDENCE
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.sample import Sample
+from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.code import walk_code
-from optipath.surfaces.walk.layout import (
-    CARRIED,
-    ENDS,
-    MOST_COUNTED,
-    OPAQUE,
-    OUTCOMES,
-    RECORD,
-    SUMS,
-    UP,
-)
 from optipath.surfaces.walk.meshes import meshes_of
 from optipath.values.arrays import same_fields
 from optipath.values.domains import StokesDomain
@@ -72,6 +63,11 @@ class PhotonBeam:
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
 
+    @property
+    def incidence(self) -> float:
+        """The angle of incidence in radians."""
+        return float(np.arctan2(self.sin, self.cos))
+
     @cached_property
     def lights(self) -> int:
         """How many lights ride on a photon: for each index of the base, all states."""
@@ -91,7 +87,7 @@ class PhotonBeam:
 
     def smooth_sine(self, outcome: int) -> float:
         """Return the sine of the angle at which a smooth sample sends light up or down."""
-        if outcome == UP:
+        if outcome == layout.UP:
             return self.sin
         return self.sin * self.indices.outside / float(self.indices.n.flat[0])
 
@@ -120,16 +116,16 @@ class PhotonBeam:
         count, photons = self.lights, photons if wanted < 0 else wanted + 1
         stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
         state = np.array(stream.state["state"]["state"], np.uint64)
-        starts, lights = np.zeros(2 * len(self.sample.layers)), np.zeros((count, CARRIED))
-        record = np.zeros((1 if wanted < 0 else 1 + self.most_events, RECORD))
-        ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
+        starts, lights = np.zeros(2 * len(self.sample.layers)), np.zeros((count, layout.CARRIED))
+        record = np.zeros((1 if wanted < 0 else 1 + self.most_events, layout.RECORD))
+        ends = np.zeros((photons if keeps else 1, layout.ENDS + layout.CARRIED * count))
         azimuth = np.nan if self.sample.isotropic else self.azimuth
         media, base, source = self._arrays
         before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
-        code = walk_code()
+        code, shape = walk_code(), (layout.OUTCOMES, layout.MOST_COUNTED, count, layout.SUMS)
         sums: dict[int, npt.NDArray[np.float64]] = {}
         for first, size, surface in self.portions(number, photons):
-            own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
+            own = sums.setdefault(surface, np.zeros(shape))
             last = wanted - first if first <= wanted < first + size else -1
             into = (state, starts, lights, own, record, ends[keeps * first :], int(keeps))
             if not code(
@@ -147,7 +143,7 @@ class PhotonBeam:
     def _arrays(self) -> tuple[npt.NDArray[np.float64], ...]:
         """Return the media, the base of each light, and what lights are at first."""
         indices = self.indices
-        behind = OPAQUE if indices.opaque else float(indices.n.flat[0])
+        behind = layout.OPAQUE if indices.opaque else float(indices.n.flat[0])
         media = np.array([indices.outside, *indices.inner, behind])
         base = np.stack([indices.n.ravel(), indices.k.ravel()], axis=-1)
         source = [[*carry(FLOAT, state), state[0]] for state in self.states]
@@ -242,11 +238,7 @@ Block = TypeVar("Block")
 
 
 def walked_in_order(
-    beam: PhotonBeam,
-    todo: range,
-    photons: int,
-    threads: int,
-    work: Callable[[int, int], Block],
+    beam: PhotonBeam, todo: range, photons: int, threads: int, work: Callable[[int, int], Block]
 ) -> Generator[Block]:
     """Yield blocks in their order, however many threads; closing the generator stops them."""
     walk_code()

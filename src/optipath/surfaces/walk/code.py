@@ -3,54 +3,25 @@
 from __future__ import annotations
 
 import hashlib
-from functools import cache
-from importlib.resources import files
+from functools import cache, partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import SurfaceError, need
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from importlib.resources.abc import Traversable
 
     from optipath.engines.machine_code import MachineCode
 
 
-_TEXT = """\
-from optipath.surfaces.walk.compiled import photon_block
+_BLOCK = (
+    "*int64 *float64 *float64 *float64 *float64 *float64 int64 float64 float64 float64 *float64 "
+    "int64 int64 int64 int64 *uint64 *float64 *float64 *float64 *float64 *float64 int64"
+)
+_PIXELS = "*int64 *float64 *float64 int64 int64 int64 int64 int64 *float64"
+"""The types of arguments, as Numba names them; ``*`` before the type of an array's numbers."""
 
-
-def path(
-    wholes: "*int64", numbers: "*float64", heights: "*float64", extremes: "*float64",
-    media: "*float64", base: "*float64", layers: "int64",
-    cos: "float64", sin: "float64", azimuth: "float64", source: "*float64",
-    count: "int64", photons: "int64", most: "int64", wanted: "int64",
-    state: "*uint64", starts: "*float64", lights: "*float64", sums: "*float64", record: "*float64",
-    ends: "*float64", keeps: "int64",
-):
-    return photon_block(
-        (wholes, numbers, heights, extremes), media, base, layers, (cos, sin, azimuth), source,
-        count, photons, most, wanted, state, starts, lights, sums, record, ends, keeps
-    )
-
-
-# Of sources {digest}
-"""
-_PIXELS = """\
-from optipath.surfaces.walk.compiled import pixel_sums
-
-
-def path(
-    places: "*int64", turns: "*float64", ends: "*float64", photons: "int64", lights: "int64",
-    states: "int64", has_matrix: "int64", has_scalar: "int64", sums: "*float64",
-):
-    return pixel_sums(
-        places, turns, ends, photons, lights, states, has_matrix, has_scalar, sums
-    )
-
-
-# Of sources {digest}
-"""
 _SOURCES = "kernels", "engines", "surfaces/walk"
 """What the code is made of."""
 
@@ -58,17 +29,16 @@ _SOURCES = "kernels", "engines", "surfaces/walk"
 @cache
 def walk_code() -> MachineCode:
     """Return `photon_block` as compiled code, which leaves other threads to do their work."""
-    return _code_of(_TEXT)
+    return _code_of("photon_block", _BLOCK)
 
 
 @cache
 def pixel_code() -> MachineCode:
     """Return `pixel_sums` as compiled code; raises what `walk_code` does."""
-    return _code_of(_PIXELS)
+    return _code_of("pixel_sums", _PIXELS)
 
 
-def _code_of(text: str) -> MachineCode:
-    """Return the code of a text."""
+def _code_of(name: str, kinds: str) -> MachineCode:
     need("photons on rough surfaces", "numba", "llvmlite")
     from optipath.engines.code_cache import CODE  # noqa: PLC0415 - beside it
     from optipath.engines.llvm_engine import is_forbidden  # noqa: PLC0415 - beside it
@@ -77,31 +47,27 @@ def _code_of(text: str) -> MachineCode:
         raise SurfaceError(
             "NUMBA_DISABLE_JIT is set, and photons on rough surfaces are compiled; unset it"
         )
-    return CODE.function(text.format(digest=_digest()), _machine_code_of)
+    text = f"{name}({kinds}) of sources {digest_of(_SOURCES)}"
+    return CODE.function(text, partial(_machine_code_of, name, kinds.split()))
 
 
-def _machine_code_of(text: str) -> bytes:
-    """Return the machine code of the function ``path`` of a Python text.
-
-    Annotations are types as Numba names them; ``*`` before the type of an array's numbers.
-    """
+def _machine_code_of(name: str, kinds: list[str], _: str) -> bytes:
     from numba import cfunc, types  # noqa: PLC0415 - not to load code
 
     from optipath.engines.machine_code import machine_code_of  # noqa: PLC0415 - an extra
+    from optipath.surfaces.walk import compiled  # noqa: PLC0415 - an extra
 
-    space: dict[str, Any] = {"__name__": __name__}
-    exec(compile(text, "<walk>", "exec", dont_inherit=True), space)  # noqa: S102 - our own
-    kinds = list(space["path"].__annotations__.values())
     pointer: Any = types.CPointer  # type: ignore[attr-defined,unused-ignore] # as it has no types
     given = [pointer(getattr(types, k[1:])) if k[0] == "*" else getattr(types, k) for k in kinds]
-    made: Any = cfunc(types.int64(*given), error_model="numpy")(space["path"])
+    function = getattr(compiled, name).py_func
+    made: Any = cfunc(types.int64(*given), error_model="numpy")(function)
     # What Numba calls from C reports errors to Python; the function in it gives a status.
     whole, _, wrapper = made.inspect_llvm().partition(f"define i64 @{made.native_name}(")
     whole += wrapper.partition("\n}\n")[2]
     llvm = {"int64": "i64", "float64": "double"}
     places = [f"{llvm.get(kind, 'ptr')} %a{place}" for place, kind in enumerate(kinds)]
-    name = made.native_name.removeprefix("cfunc.")
-    return machine_code_of(whole + _CALL.format(name=name, places=", ".join(places)))
+    native = made.native_name.removeprefix("cfunc.")
+    return machine_code_of(whole + _CALL.format(name=native, places=", ".join(places)))
 
 
 _CALL = """
@@ -117,22 +83,10 @@ define i64 @path({places}) {{
 """
 
 
-def _digest() -> str:
-    """Return a hash of all sources that the code is made of."""
-    return digest_of(_SOURCES)
-
-
 def digest_of(rooms: Iterable[str]) -> str:
     """Return a hash of all sources in some folders of the library."""
-    result, here = hashlib.sha256(), files("optipath")
+    result, here = hashlib.sha256(), Path(__file__).parents[2]
     for room in rooms:
-        _add(result, here.joinpath(*room.split("/")))
+        for file in sorted(here.joinpath(room).rglob("*.py")):
+            result.update(file.name.encode() + b"\0" + file.read_bytes())
     return result.hexdigest()
-
-
-def _add(result: hashlib._Hash, folder: Traversable) -> None:
-    for entry in sorted(folder.iterdir(), key=lambda each: each.name):
-        if entry.is_dir() and entry.name != "__pycache__":
-            _add(result, entry)
-        elif entry.name.endswith(".py"):
-            result.update(entry.name.encode() + b"\0" + entry.read_bytes())

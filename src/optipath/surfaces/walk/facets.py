@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numba as nb
 import numpy as np
-from llvmlite import ir
-from numba.extending import intrinsic
 
 from optipath.engines.formula import Formula
 from optipath.engines.symbols import OPERATIONS, SYMBOLIC, Recorder, Symbol
@@ -18,8 +16,7 @@ from optipath.kernels.fresnel.stable import (
     lossless_transmission,
     stable_reflection,
 )
-from optipath.surfaces.walk.layout import CARRIED, OPAQUE
-from optipath.surfaces.walk.meshes import CELL_X, CELL_Y, CELLS_X, HEIGHTS, NUMBERS, WHOLES
+from optipath.surfaces.walk import layout
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -103,11 +100,11 @@ def _met(
 def facet_normal(meshes: Any, layer: int, column: int, line: int, facet: int, side: float) -> Any:
     """Return the normal of a facet, on one side of it."""
     wholes, numbers, heights = meshes[0], meshes[1], meshes[2]
-    about, sizes = layer * WHOLES, layer * NUMBERS
-    row = wholes[about + CELLS_X] + 1
-    corner = wholes[about + HEIGHTS] + line * row + column
+    about, sizes = layer * layout.WHOLES, layer * layout.NUMBERS
+    row = wholes[about + layout.CELLS_X] + 1
+    corner = wholes[about + layout.HEIGHTS] + line * row + column
     rise_x, rise_y = facet_gradient(corners_of(heights, corner, row), facet)
-    x, y = -rise_x / numbers[sizes + CELL_X], -rise_y / numbers[sizes + CELL_Y]
+    x, y = -rise_x / numbers[sizes + layout.CELL_X], -rise_y / numbers[sizes + layout.CELL_Y]
     size = side / np.sqrt(x * x + y * y + 1.0)
     return x * size, y * size, size
 
@@ -126,15 +123,15 @@ def facet_event(
 ) -> Any:
     """Reflect a photon with probability (Rs + Rp) / 2, else refract it; divide by that share."""
     c, s, sx, sy, sz, cos2, sin2, rx, ry, rz = plane(*k, *x, *normal)
-    if n2 == OPAQUE:
+    if n2 == layout.OPAQUE:
         numbers = opaque_reflection(n1, base[0], base[1], c, s)
         for each in range(count):
             at = 2 * each
             # Several states of one light share an index.
             if each > 0 and (base[at] != base[at - 2] or base[at + 1] != base[at - 1]):
                 numbers = opaque_reflection(n1, base[at], base[at + 1], c, s)
-            _act(lights, CARRIED * each, cos2, sin2, numbers)
-            lights[CARRIED * each + 4] *= 0.5 * (numbers[0] + numbers[1])
+            _act(lights, layout.CARRIED * each, cos2, sin2, numbers)
+            lights[layout.CARRIED * each + 4] *= 0.5 * (numbers[0] + numbers[1])
         return True, (rx, ry, rz), (sx, sy, sz), (c, s, cos2, sin2, 1.0)
     Fs, Fp, B, C, S, Ts, Tp, Bt, Ct, tx, ty, tz = boundary(n1, n2, c, s, *k, *normal)
     reflected = uniform(state) < 0.5 * (Fs + Fp)
@@ -145,7 +142,7 @@ def facet_event(
     weight = 1.0 / share
     numbers = weight * Fs, weight * Fp, weight * B, weight * C, weight * S
     for each in range(count):
-        _act(lights, CARRIED * each, cos2, sin2, numbers)
+        _act(lights, layout.CARRIED * each, cos2, sin2, numbers)
     return reflected, (rx, ry, rz), (sx, sy, sz), (c, s, cos2, sin2, share)
 
 
@@ -185,42 +182,12 @@ def _written(operand: Any) -> str:
     return repr(operand.item() if isinstance(operand, np.generic) else operand)
 
 
-@intrinsic
-def _bits_of(typing: Any, number: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
-        return builder.bitcast(argument[0], ir.IntType(64))
-
-    return nb.int64(nb.float64), generate
-
-
-@intrinsic
-def _number_of(typing: Any, bits: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
-        return builder.bitcast(argument[0], ir.DoubleType())
-
-    return nb.float64(nb.int64), generate
-
-
-@intrinsic
-def _fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    def generate(context: Any, builder: Any, signature: Any, argument: Any) -> Any:  # noqa: ARG001
-        return builder.fma(*argument)
-
-    return a(a, a, a), generate
-
-
-@nb.njit(error_model="numpy")
-def product_rest(a: Any, b: Any) -> Any:
-    """Return what the rounding of a b has lost."""
-    return _fused(a, b, -(a * b))
-
-
 @nb.njit(error_model="numpy")
 def exponent(number: Any) -> Any:
     """Return the exponent that frexp gives."""
     wide = np.float64(number)
     small = np.int64(abs(wide) < 2.2250738585072014e-308)
-    bits = _bits_of(wide * (1.0 + small * 18014398509481983.0))
+    bits = np.float64(wide * (1.0 + small * 18014398509481983.0)).view(np.int64)
     return (((bits >> 52) & 2047) - 1022 - 54 * small) * np.int64(wide != 0.0)
 
 
@@ -229,13 +196,13 @@ def ldexp(number: Any, power: Any) -> Any:
     """Return a number times two to a power, in double precision."""
     power = min(max(power, -2040), 2040)
     half = power >> 1
-    first, second = (half + 1023) << 52, (power - half + 1023) << 52
-    return np.float64(number) * _number_of(first) * _number_of(second)
+    first, second = np.int64((half + 1023) << 52), np.int64((power - half + 1023) << 52)
+    return np.float64(number) * first.view(np.float64) * second.view(np.float64)
 
 
 _SPACE = {
     **{name: getattr(np, name) for name in ("sqrt", "inf", "nan")},
-    **{one.__name__: one for one in (exponent, ldexp, product_rest)},
+    **{one.__name__: one for one in (exponent, ldexp)},
 }
 
 

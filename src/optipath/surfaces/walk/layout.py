@@ -32,3 +32,18 @@ POINT, NORMAL, DIRECTION = 13, 16, 19
 
 OUTCOME, EVENTS, FIRST_K, FIRST_X, LAST_K, LAST_X = 0, 1, 2, 5, 8, 11
 """The places of the numbers of the end; vectors take three."""
+
+WHOLES, NUMBERS = 24, 4
+"""How many whole numbers, and how many others, there are of a mesh."""
+
+HEIGHTS, CELLS_X, CELLS_Y, LEVELS, PERIODIC, PYRAMID = range(6)
+"""The places of the whole numbers: where heights begin, and from the last, where levels do."""
+
+CELL_X, CELL_Y, LOW, HIGH = range(NUMBERS)
+"""The places of the others."""
+
+ENDED, SHIFTED, IN_REGISTER = range(3)
+"""How a mesh ends: at its border; periodic, shifted at random by photon; or periodic and fixed."""
+
+SHIFT = 2
+"""Blocks are 2^SHIFT blocks of the level below wide."""

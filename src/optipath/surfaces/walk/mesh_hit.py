@@ -7,22 +7,8 @@ from typing import Any
 import numba as nb
 import numpy as np
 
+from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.facets import NO_FACET, corners_of, facet_hit
-from optipath.surfaces.walk.meshes import (
-    CELL_X,
-    CELL_Y,
-    CELLS_X,
-    CELLS_Y,
-    HEIGHTS,
-    HIGH,
-    LEVELS,
-    LOW,
-    NUMBERS,
-    PERIODIC,
-    PYRAMID,
-    SHIFT,
-    WHOLES,
-)
 
 MET, MISSED, LEFT, LOST = 0, 1, 2, 3
 """A facet is met; none is; the ray has left the field at its side; it goes on for too long."""
@@ -50,17 +36,18 @@ def mesh_hit(
     """Return what a ray meets of a mesh."""
     wholes, numbers, heights, extremes = meshes
     z, dx, dy, dz = ray
-    about = layer * WHOLES
-    across, down, top = wholes[about + CELLS_X], wholes[about + CELLS_Y], wholes[about + LEVELS]
-    first, periodic = wholes[about + HEIGHTS], wholes[about + PERIODIC] != 0
+    about = layer * layout.WHOLES
+    across, down = wholes[about + layout.CELLS_X], wholes[about + layout.CELLS_Y]
+    top = wholes[about + layout.LEVELS]
+    first, periodic = wholes[about + layout.HEIGHTS], wholes[about + layout.PERIODIC] != 0
     inverse_x, inverse_y = 1.0 / dx, 1.0 / dy
-    edge = numbers[layer * NUMBERS + (HIGH if side > 0.0 else LOW)]
+    edge = numbers[layer * layout.NUMBERS + (layout.HIGH if side > 0.0 else layout.LOW)]
     # Beyond this, nothing of the mesh is as high, or as low.
     leaves = (edge - z) / dz if side * dz > 0.0 else np.inf
     t, facet = 0.0, NO_FACET
     level = 0 if own != NO_FACET else min(_FIRST_LEVEL, top)
     for _ in range(_MOST_STEPS):
-        shift = SHIFT * level
+        shift = layout.SHIFT * level
         block_x, block_y = column >> shift, line >> shift
         left, right = block_x << shift, min((block_x + 1) << shift, across)
         front, back = block_y << shift, min((block_y + 1) << shift, down)
@@ -70,7 +57,7 @@ def mesh_hit(
         here, there = z + t * dz, z + end * dz
         if level > 0:
             row = ((across - 1) >> shift) + 1
-            place = wholes[about + PYRAMID + level] + 2 * (block_y * row + block_x)
+            place = wholes[about + layout.PYRAMID + level] + 2 * (block_y * row + block_x)
             if _is_close(here, there, extremes[place], extremes[place + 1], side):
                 level -= 1
                 continue
@@ -96,9 +83,9 @@ def mesh_hit(
                 return LEFT, t, column, line, NO_FACET, x, y
             x, column = _wrapped(x, column, across)
             y, line = _wrapped(y, line, down)
-        above = shift + SHIFT
-        has_left = column >> above != block_x >> SHIFT or line >> above != block_y >> SHIFT
-        if has_left and level < top:
+        above = shift + layout.SHIFT
+        across_left = column >> above != block_x >> layout.SHIFT
+        if level < top and (across_left or line >> above != block_y >> layout.SHIFT):
             level += 1
     return LOST, t, column, line, NO_FACET, x, y
 
@@ -131,14 +118,14 @@ def _wrapped(start: float, cell: int, cells: int) -> Any:
 def mesh_entry(meshes: Any, layer: int, side: float, point: Any, k: Any, starts: Any) -> Any:
     """Return where light gets to the height of a mesh's highest, or lowest, point."""
     wholes, numbers = meshes[0], meshes[1]
-    about, sizes = layer * WHOLES, layer * NUMBERS
-    height = numbers[sizes + (HIGH if side > 0.0 else LOW)]
+    about, sizes = layer * layout.WHOLES, layer * layout.NUMBERS
+    height = numbers[sizes + (layout.HIGH if side > 0.0 else layout.LOW)]
     t = (height - point[2]) / k[2]
     point = (point[0] + t * k[0], point[1] + t * k[1], height)
-    x = (point[0] + starts[2 * layer]) / numbers[sizes + CELL_X]
-    y = (point[1] + starts[2 * layer + 1]) / numbers[sizes + CELL_Y]
-    across, down = wholes[about + CELLS_X], wholes[about + CELLS_Y]
-    if wholes[about + PERIODIC] != 0:
+    x = (point[0] + starts[2 * layer]) / numbers[sizes + layout.CELL_X]
+    y = (point[1] + starts[2 * layer + 1]) / numbers[sizes + layout.CELL_Y]
+    across, down = wholes[about + layout.CELLS_X], wholes[about + layout.CELLS_Y]
+    if wholes[about + layout.PERIODIC] != 0:
         return True, point, _in_period(x, across), _in_period(y, down)
     inside = (x >= 0.0) & (x < across) & (y >= 0.0) & (y < down)
     return inside, point, x, y

@@ -9,24 +9,13 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.surfaces.height_field import HeightField
+from optipath.surfaces.walk import layout
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.surfaces.sample import Sample
 
-
-WHOLES, NUMBERS = 24, 4
-"""How many whole numbers, and how many others, there are of a mesh."""
-
-HEIGHTS, CELLS_X, CELLS_Y, LEVELS, PERIODIC, PYRAMID = range(6)
-"""The places of the whole numbers: where heights begin, and from the last, where levels do."""
-
-CELL_X, CELL_Y, LOW, HIGH = range(NUMBERS)
-"""The places of the others."""
-
-ENDED, SHIFTED, IN_REGISTER = range(3)
-"""How a mesh ends: at its border; periodic, shifted at random by photon; or periodic and fixed."""
 
 GAP = 2.0
 """The empty space between two meshes, in standard deviations of the rougher one's heights."""
@@ -46,8 +35,8 @@ def packed_meshes(fields: Sequence[HeightField], arguments: Sequence[bool] = ())
     # Those that are given stay in register with the first of them.
     given = [field for field, is_given in zip(fields, arguments, strict=False) if is_given]
     size = next((field.size for field in given if field.periodic), None)
-    wholes = np.zeros((len(fields), WHOLES), np.int64)
-    numbers = np.zeros((len(fields), NUMBERS))
+    wholes = np.zeros((len(fields), layout.WHOLES), np.int64)
+    numbers = np.zeros((len(fields), layout.NUMBERS))
     heights: list[npt.NDArray[np.float64]] = []
     extremes: list[npt.NDArray[np.float64]] = []
     lowest, taken, message = 0.0, 0, 0
@@ -59,12 +48,12 @@ def packed_meshes(fields: Sequence[HeightField], arguments: Sequence[bool] = ())
         lowest = float(vertices.min())
         across, down = field.cells
         levels = pyramid_of(vertices)
-        standing = SHIFTED if field.periodic else ENDED
+        standing = layout.SHIFTED if field.periodic else layout.ENDED
         if field.periodic and field.size == size and any(field is each for each in given):
-            standing = IN_REGISTER
-        wholes[place, :PYRAMID] = taken, across, down, len(levels) - 1, standing
+            standing = layout.IN_REGISTER
+        wholes[place, : layout.PYRAMID] = taken, across, down, len(levels) - 1, standing
         for level, values in enumerate(levels[1:], 1):
-            wholes[place, PYRAMID + level] = message
+            wholes[place, layout.PYRAMID + level] = message
             message += values.size
         numbers[place] = *np.divide(field.size, field.cells), lowest, vertices.max()
         taken += vertices.size
@@ -95,25 +84,17 @@ def meshes_of(sample: Sample, surface: int) -> PackedMeshes:
         return known[surface]
 
 
-SHIFT = 2
-"""Blocks are 2^SHIFT blocks of the level below wide."""
-
-
 def pyramid_of(vertices: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64]]:
     """Return the extremes by level, (rows, columns, 2), of vertices (cells_y + 1, cells_x + 1).
 
     The first is of the cells, the last of one block.
-
-    >>> cells, whole = pyramid_of(np.array([[0.0, 1.0, 0.0], [2.0, 0.0, 3.0]]))
-    >>> print(cells[0, 1], whole[0, 0])
-    [0. 3.] [0. 3.]
     """
     corners = np.stack([vertices[:-1, :-1], vertices[1:, :-1], vertices[:-1, 1:], vertices[1:, 1:]])
     results = [np.stack([corners.min(axis=0), corners.max(axis=0)], axis=-1)]
     while max(results[-1].shape[:2]) > 1:
         low, high = results[-1][..., 0], results[-1][..., 1]
         for axis in (0, 1):
-            blocks = np.arange(0, low.shape[axis], 1 << SHIFT)
+            blocks = np.arange(0, low.shape[axis], 1 << layout.SHIFT)
             low = np.minimum.reduceat(low, blocks, axis=axis)
             high = np.maximum.reduceat(high, blocks, axis=axis)
         results.append(np.stack([low, high], axis=-1))
