@@ -66,7 +66,7 @@ def several(*, reflected):
     def light(*given):
         *indices, k, angle = given
         media = [mpmath.mpc(n) for n in indices[:-1]] + [mpmath.mpc(indices[-1], k)]
-        rows = stack(media, *cos_sin(angle), way=reflected)
+        rows = stack(media, media[0].real * cos_sin(angle)[1], way=reflected)
         return [mpmath.fdot(row, LIGHT) for row in rows]
 
     return light

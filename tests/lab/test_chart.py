@@ -27,9 +27,8 @@ from optipath.lab.chart import (
     many_paths,
     path_chart,
 )
-from optipath.lab.chart_file import KINDS, chart_text, contenders, read_chart
+from optipath.lab.chart_file import KINDS, chart_text, contenders, peer_times, read_chart
 from optipath.lab.errors import AS_PASSED, Errors, interface_errors, path_errors, trial
-from optipath.lab.peer_times import peer_times
 from optipath.lab.regions import PLACES, REGIONS, in_region
 from paths import chain
 from pictures import faults_of, texts_of

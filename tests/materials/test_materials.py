@@ -120,7 +120,10 @@ POLE = op.Material.sellmeier([1.0], [0.25], name="x")
 OPEN = op.Material.sellmeier([op.Parameter("b")], [0.1], name="x")
 cauchy, lorentz = op.Material.cauchy, op.Material.tauc_lorentz
 REFUSED = [
-    (lambda: gold().refractive_index, "n of gold depends on the wavelength; give .at('550 nm')"),
+    (
+        lambda: gold().refractive_index,
+        "n of gold is not known yet; let the Material itself stand in the path, or take it at",
+    ),
     (lambda: gold().at("3 um"), '1937 nm, for which gold is known, or ask for | "nearest" or "lin'),
     (lambda: gold().at(516), "516 metres, which is no wavelength of light; for nanometres"),
     (lambda: gold(wavelength="3 um"), "within 188 nm .. 1937 nm, for which gold is known"),
@@ -132,7 +135,7 @@ REFUSED = [
     (lambda: op.Material.tabulated([188, 500], [1, 2]), "is 188 metres, which is no wavelength"),
     (lambda: op.Material.sellmeier([1], [1, 2]), "has 1 of b and 2 of c; give one for each"),
     (lambda: op.Material.sellmeier([1]), "needs c, in square micrometres, or resonances"),
-    (lambda: op.Material.of_curve(float), "give a table or a formula to Material.tabulated"),
+    (lambda: op.Material.of_curve(float), "give a Curve, or use Material.tabulated"),
     (lambda: op.Material.sellmeier(1, [1]), "b of a Sellmeier formula must be a row"),
     (lambda: op.Material.sellmeier([1, "a"], [1, 2]), "b[1] of a Sellmeier formula: 'a'"),
     (lambda: cauchy([1.5, np.nan]), "coefficients[1] of a Cauchy formula is nan"),

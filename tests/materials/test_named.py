@@ -11,7 +11,7 @@ import optipath as op
 from optipath.errors import MaterialError, MissingExtraError
 from optipath.materials import database as page_entries
 from optipath.materials import database_names as installed
-from optipath.materials.database import curve_of, known_spans, pages_with
+from optipath.materials.database import USUAL, curve_of, known_spans, pages_with
 from optipath.materials.database_names import (
     CURATED,
     NamedPage,
@@ -273,7 +273,7 @@ def curve_or_refusal(page):
     found = NamedPage(page.place, page)
     for own in ({}, {"k": 0.0}, {"n": 1.0}):
         try:
-            return curve_of(found, own=own)
+            return curve_of(found, own, USUAL)
         except MaterialError as error:
             refusal = str(error)
             if " has no k (" not in refusal and " has no n (" not in refusal:

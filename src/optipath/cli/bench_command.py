@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -66,7 +65,7 @@ def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
     with progress_bar(steps) as tell:
         report = bench(path, load, progress=lambda what: tell(what, advance=1), **options)
     if as_json:
-        say_json({"preset": chosen.preset, **asdict(report)})
+        say_json({"preset": chosen.preset, **report._asdict()})
         return
     for table in _tables(report):
         PlainConsole().print(table)

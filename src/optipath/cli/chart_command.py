@@ -168,7 +168,7 @@ def _measured(
 
         return read_chart(read_text(source), str(source))
     from optipath.lab import chart as lab  # noqa: PLC0415
-    from optipath.lab.peer_times import check_race  # noqa: PLC0415
+    from optipath.lab.chart_file import check_race  # noqa: PLC0415
 
     if near:
         places = NEAR if EVERYWHERE in near else near

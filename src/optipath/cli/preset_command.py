@@ -31,9 +31,9 @@ from optipath.materials.named_materials import (
     is_material,
     material_named,
     single_value,
-    take_extinctions,
 )
 from optipath.materials.quantities import READINGS
+from optipath.paths.binding import from_materials
 from optipath.paths.files.presets import bound_preset, load_preset, preset_names
 from optipath.values.cases import ALL
 from optipath.values.text import AxisValues, IdleValues
@@ -231,7 +231,8 @@ def chosen_by(
     values = {name: _value(path, name, arguments, uses, faults) for name in arguments}
     sound = {name: value for name, value in values.items() if value is not None}
     if not faults:
-        take_extinctions(uses, sound)
+        for k in from_materials(path.graph, sound):
+            sound.pop(k, None)
         take_wavelength(preset, path, sound)
     elif WAVELENGTH.name not in path.parameters:
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.

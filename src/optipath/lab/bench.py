@@ -5,7 +5,6 @@ from __future__ import annotations
 import platform
 import subprocess
 import sys
-from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
 from itertools import product
@@ -32,17 +31,21 @@ _DTYPES = ("float64", "float32")
 _OUTPUTS = ("stokes", "mueller")
 _BATCH = ("engine", "dtype", "output", "paths")
 _COMPARED = 100_000
-_FIRST_PATH = "from optipath import Detector, Source; (Source() >> Detector()).trace()"
+_STATEMENTS = {
+    # What is imported is loaded as it is asked for first, so that an import alone says little.
+    "import optipath, run a path": "from optipath import Detector, Source; "
+    "(Source() >> Detector()).trace()",
+    "import numpy, networkx": "import numpy, networkx",
+}
 
 
-@dataclass(frozen=True)
-class Report:
-    """How long a path takes."""
+class Report(NamedTuple):
+    """How long a path takes: single calls in ms, batches in ns a path."""
 
-    single: dict[str, float] = field(default_factory=dict)
-    batches: list[dict[str, Any]] = field(default_factory=list)
-    methods: list[dict[str, Any]] = field(default_factory=list)
-    software: dict[str, str] = field(default_factory=dict)
+    single: dict[str, float]
+    batches: list[dict[str, Any]]
+    methods: list[dict[str, Any]]
+    software: dict[str, str]
 
 
 def bench(
@@ -63,28 +66,26 @@ def bench(
         # Kept, so that nothing is compiled for one batch after the other.
         return Composer(engine=engine, dtype=dtype, method=method, threads=threads).compose(path)
 
-    report = Report(software=software(("numpy", "networkx", *result)))
     plan = Composer().compose(path)
     one = {name: float(value[0]) for name, value in random_values(plan, 1).items()}
     single: dict[str, Callable[[], object]] = {
         "load": load,
         "compose": partial(Composer().compose, path),
         "one run of plain floats": partial(plan.run_all, **one),
-        # What is imported is loaded as it is asked for first, so that an import alone says little.
-        "import optipath, run a path": _import(_FIRST_PATH),
-        "import numpy, networkx": _import("import numpy, networkx"),
     }
+    for name, statement in _STATEMENTS.items():
+        single[name] = partial(subprocess.run, [sys.executable, "-c", statement], check=True)
     timings = race(single, tick=progress)
-    report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
     kinds = slice(None if long else 1)
     # First, since their first calls tell how long they take to be compiled.
-    methods = product(result, METHODS[kinds], [min(_COMPARED, largest)])
-    report.methods.extend(_timed(plan_of, ("engine", "method", "paths"), methods, progress))
-    tens = [10**power for power in range(len(str(largest)))]
+    compared = product(result, METHODS[kinds], [min(_COMPARED, largest)])
+    methods = _timed(plan_of, ("engine", "method", "paths"), compared, progress)
+    tens, batches = [10**power for power in range(len(str(largest)))], []
     for size in tens if long else sorted({max(1, largest // 100), largest}):
-        batches = product(result, _DTYPES[kinds], _OUTPUTS[kinds], [size])
-        report.batches.extend(_timed(plan_of, _BATCH, batches, progress))
-    return report
+        each = product(result, _DTYPES[kinds], _OUTPUTS[kinds], [size])
+        batches += _timed(plan_of, _BATCH, each, progress)
+    single_ms = {name: 1e3 * timing.least for name, timing in timings.items()}
+    return Report(single_ms, batches, methods, software(("numpy", "networkx", *result)))
 
 
 def software(names: Iterable[str]) -> dict[str, str]:
@@ -134,10 +135,6 @@ def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
         getattr(numbers, "block_until_ready", bool)()
 
 
-def _import(statement: str) -> Callable[[], object]:
-    return partial(subprocess.run, [sys.executable, "-c", statement], check=True)
-
-
 def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
     """Return arrays for the parameters of a plan that are open.
 
@@ -160,11 +157,11 @@ def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
             angles[name] = draw(max(low, -np.pi), min(high, np.pi), count)
         elif isinstance(default, (int, float)):
             others[name] = np.clip(default * draw(0.9, 1.1, count), low, high)
-    if not angles and not others:
-        raise ParameterError(
-            "the path has no open parameter that can be varied; leave an angle open to time it"
-        )
-    return angles or others
+    if angles or others:
+        return angles or others
+    raise ParameterError(
+        "the path has no open parameter that can be varied; leave an angle open to time it"
+    )
 
 
 _UNITS = {1.0: "s", 1e-3: "ms", 1e-6: "us", 1e-9: "ns"}
@@ -223,8 +220,8 @@ def duration(seconds: float) -> str:
     rounded = float(f"{seconds:.3g}")
     if rounded == 0.0 or rounded >= 1000.0:
         return f"{rounded:,.0f} s"
-    sizes = [size for size in _UNITS if rounded >= size] or [min(_UNITS)]
-    return f"{rounded / sizes[0]:.3g} {_UNITS[sizes[0]]}"
+    size = next((size for size in _UNITS if rounded >= size), 1e-9)
+    return f"{rounded / size:.3g} {_UNITS[size]}"
 
 
 _INNER, _OUTER = 2048, 4_000_000

@@ -6,6 +6,7 @@ a rounded cosine and a rounded sine belong to no angle themselves.
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -83,22 +84,22 @@ def refracted(ratio: Any, s: Any) -> tuple[Any, Any]:
     return (mpmath.sqrt(1 - s * s), s) if s < 1 else (mpmath.mpf(0), mpmath.mpf(1))
 
 
-def stack(indices: Sequence[Any], c: Any, s: Any, *, way: bool) -> list[list[Any]]:
-    """Return the Mueller matrix of a stack, by adding boundary after boundary from the far side."""
-    first, faces = indices[0].real, []
-    for place, (n, behind) in enumerate(pairwise(indices)):
-        angle = refracted(first / n.real, s) if place else (c, s)
-        face = boundary(behind / n.real, *angle)
-        faces.append(list(zip(*map(powers, face), strict=True)))
-    total = faces[-1]
-    for here in reversed(faces[:-1]):
-        pairs = zip(here, total, strict=True)
-        total = [_added(r, t, t, below, through) for (r, t), (below, through) in pairs]
-    return _rows(total, way=way)
+def stack(
+    indices: Sequence[Any], y: Any, depths: Sequence[Any] = (), *, way: bool
+) -> list[list[Any]]:
+    """Return the Mueller matrix of a stack, by adding boundary after boundary from the far side.
 
-
-def _rows(total: Sequence[Any], *, way: bool) -> list[list[Any]]:
-    """Return the Mueller matrix of what is reflected, or let through, of each part."""
+    Its layers are thick, and of some depth where one absorbs; y is n sin of every medium.
+    """
+    faces = [_both_sides(*pair, y) for pair in pairwise(indices)]
+    total = [(r, t) for r, t, _ in faces[-1]]
+    inner = [*zip(faces[:-1], indices[1:-1], depths or [0] * len(indices[2:]), strict=True)]
+    for here, n, depth in reversed(inner):
+        left = mpmath.exp(-depth * mpmath.sqrt(n * n - y * y).imag) if n.imag else 1
+        total = [
+            _added(r, t, up, left**2 * below, left * through)
+            for (r, t, up), (below, through) in zip(here, total, strict=True)
+        ]
     A, B, C, S = mueller_numbers(*(pair[0] if way else pair[1] for pair in total))
     return [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]
 
@@ -127,32 +128,14 @@ def _added(r: Any, t: Any, up: Any, below: Any, through: Any) -> tuple[Any, Any]
     return r + t * up * below * rounds, t * through * rounds
 
 
-def absorbing_stack(
-    indices: Sequence[Any], depths: Sequence[Any], y: Any, *, way: bool
-) -> list[list[Any]]:
-    """Return the Mueller matrix of a stack of thick layers, of which some absorb."""
-    faces = [_both_sides(*pair, y) for pair in pairwise(indices)]
-    total = [(r, t) for r, t, _ in faces[-1]]
-    for here, n, depth in reversed([*zip(faces[:-1], indices[1:-1], depths, strict=True)]):
-        left = mpmath.exp(-depth * mpmath.sqrt(n * n - y * y).imag) if n.imag else 1
-        total = [
-            _added(r, t, up, left**2 * below, left * through)
-            for (r, t, up), (below, through) in zip(here, total, strict=True)
-        ]
-    return _rows(total, way=way)
-
-
 def _both_sides(first: Any, second: Any, y: Any) -> list[tuple[Any, Any, Any]]:
     """Return what is reflected, and let through from in front and from behind, of each part."""
-    front, behind = _lit(first, second, y), _lit(second, first, y)
+    front, behind = [
+        between(n, other, y) if n.imag else boundary(other / n.real, *refracted(1 / n.real, y))
+        for n, other in ((first, second), (second, first))
+    ]
     numbers = front.reflected, front.transmitted, behind.transmitted
     return list(zip(*map(powers, numbers), strict=True))
-
-
-def _lit(first: Any, second: Any, y: Any) -> ExactBoundary:
-    if first.imag:
-        return between(first, second, y)
-    return boundary(second / first.real, *refracted(1 / first.real, y))
 
 
 class Exact(NamedTuple):
@@ -162,28 +145,17 @@ class Exact(NamedTuple):
     conditions: tuple[float, ...]
 
 
-def reflection(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> Exact:
-    """Return (A, B, C, S) of a reflection, with C + iS = r_s conj(r_p).
+def exact(way: str, n: Any, k: Any, c: Any, s: Any, n1: Any = 1.0) -> Exact:
+    """Return (A, B, C, S) of what is ``reflected`` or ``transmitted`` at an angle of c and s.
 
-    >>> print(float(reflection(1.5, 0.0, 1.0, 0.0).values[0]))
+    C + iS is r_s conj(r_p); of what is let through it has the phase of t_s conj(t_p).
+
+    >>> print(float(exact("reflected", 1.5, 0.0, 1.0, 0.0).values[0]))
     0.04
     """
-    return _exact("reflected", n, k, cos, sin, n1)
-
-
-def transmission(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> Exact:
-    """Return (A, B, C, S) of the power let through, with the phase of t_s conj(t_p).
-
-    >>> print(float(transmission(1.5, 0.0, 1.0, 0.0).values[0]))
-    0.96
-    """
-    return _exact("transmitted", n, k, cos, sin, n1)
-
-
-def _exact(way: str, *arguments: float) -> Exact:
-    spread = sum(abs(int(mpmath.log10(x))) for x in map(mpmath.mpf, arguments) if x)
+    spread = sum(abs(int(mpmath.log10(x))) for x in map(mpmath.mpf, (n, k, c, s, n1)) if x)
     with mpmath.workdps(WORKING_DIGITS + 4 * spread):
-        n, k, c, s, n1 = map(mpmath.mpf, arguments)
+        n, k, c, s, n1 = map(mpmath.mpf, (n, k, c, s, n1))
         m = mpmath.mpc(n, k) / n1
         values = _values(way, m, c, s)
         # The condition from a difference so small that half of the digits stay.
@@ -194,6 +166,9 @@ def _exact(way: str, *arguments: float) -> Exact:
             for value, after in zip(values, moved, strict=True)
         )
         return Exact(values, conditions)
+
+
+reflection, transmission = partial(exact, "reflected"), partial(exact, "transmitted")
 
 
 def _values(way: str, m: Any, c: Any, s: Any) -> tuple[Any, ...]:

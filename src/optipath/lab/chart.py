@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections import Counter
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -37,12 +38,12 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.kernels.kernel import Kernel
-    from optipath.lab.regions import CriticalPlace, Region
+    from optipath.lab.regions import Region
     from optipath.paths.path_graph import PathGraph
 
     Progress: TypeAlias = Callable[[str, float], object]
     Keep: TypeAlias = Callable[[dict[str, Any]], object]
-    Measured: TypeAlias = Callable[[CriticalPlace, float], dict[str, Errors]]
+    Run: TypeAlias = tuple[Composer, Callable[[], Any]]
 
 
 class Effort(NamedTuple):
@@ -55,17 +56,14 @@ class Effort(NamedTuple):
 
     def measures(self, runner: Composer) -> bool:
         """Tell whether a contender is measured."""
-        default = runner.method == "stable" and runner.composing == "stokes"
-        return (
-            runner.engine == "numpy" or self.compiles_all or (default and runner.dtype == "float64")
-        )
+        usual = (runner.method, runner.composing, runner.dtype) == ("stable", "stokes", "float64")
+        return runner.engine == "numpy" or self.compiles_all or usual
 
     def told(self) -> dict[str, Any]:
         """Return what a chart says of it: the numbers, and a sentence of what is left out."""
-        left_out = ""
-        if not self.compiles_all and "numba" in self.engines:
-            left_out = "of Numba only stable in float64 with Stokes vectors"
-        return {"samples": self.samples, "rounds": self.rounds, "left_out": left_out}
+        left_out = "of Numba only stable in float64 with Stokes vectors"
+        some = not self.compiles_all and "numba" in self.engines
+        return {"samples": self.samples, "rounds": self.rounds, "left_out": left_out * some}
 
 
 FULL = Effort()
@@ -108,17 +106,13 @@ def path_chart(
         )
     runners = _different(path, effort)
     graph, values = many_paths(path, PATHS)
-    results = [_entry(runner) for runner in runners]
     progress("composing and compiling", 0.0)
     plans = [runner.compose(graph) for runner in runners]
-    _time(results, [partial(plan.run_all, **values) for plan in plans], effort, progress)
     argument, _ = plans[0].inputs.resolve(values)
     plan = Composer(engine="numpy").compose(graph)
     arrays = sum(operand.numbers(argument).size > 1 for operand in plan.program.operands)
     counts = (plan.explanation().operations or {}).get("plan", {})
     least = limits(arrays + 4 * len(plan.program.readings), counts)
-    words = {name: p.text(p.default) for name, p in path.parameters.items()}
-    made = {"parameters": words, **_chart(title, results, least, effort)}
     # Longdouble is given the numbers of float64, and so has its references.
     rounded = {"float64": "float64", "float32": "float32", "longdouble": "float64"}
     of_region = lru_cache(maxsize=len(rounded))(partial(trial, path, count=effort.samples))
@@ -126,47 +120,33 @@ def path_chart(
     def off(runner: Composer, region: Region | None) -> Errors:
         return path_errors(runner, of_region(region, rounded[runner.dtype]), runner.dtype)
 
+    runs = [
+        (runner, partial(p.run_all, **values)) for runner, p in zip(runners, plans, strict=True)
+    ]
     regions = {AS_PASSED: None, **{r.name: r for r in REGIONS if interfaces(path)}}
-    return _with_errors(made, runners, regions, off, progress, keep)
+    made: dict[str, Any] = {}
+    made["parameters"] = {name: p.text(p.default) for name, p in path.parameters.items()}
+    return _chart(made, title, effort, runs, least, regions, off, progress, keep)
 
 
 def interface_chart(
     effort: Effort = FULL, progress: Progress = lambda *_: None, keep: Keep = lambda _: None
 ) -> dict[str, Any]:
     """Measure every way to compute (A, B, C, S) of one interface."""
-    runners = contenders(("stokes",), ("numpy",))
-    result, actions = [_entry(runner) for runner in runners], []
-    for runner in runners:
-        samples = REGIONS[0].samples(PATHS, runner.dtype)
-        actions.append(partial(matrix_numbers, REFLECTION.by_method(runner.method), samples))
-    _time(result, actions, effort, progress)
+    runs: list[Run] = []
+    for runner in contenders(("stokes",), ("numpy",)):
+        kernel, samples = (
+            REFLECTION.by_method(runner.method),
+            REGIONS[0].samples(PATHS, runner.dtype),
+        )
+        runs.append((runner, partial(matrix_numbers, kernel, samples)))
     least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
-    made = _chart("one interface", result, least, effort)
 
     def off(runner: Composer, region: Region) -> Errors:
         return interface_errors(runner.method, region, runner.dtype, effort.samples)
 
-    return _with_errors(made, runners, {r.name: r for r in REGIONS}, off, progress, keep)
-
-
-def _with_errors(
-    made: dict[str, Any],
-    runners: Sequence[Composer],
-    regions: Mapping[str, Any],
-    off: Callable[[Composer, Any], Errors],
-    progress: Progress,
-    keep: Keep,
-) -> dict[str, Any]:
-    """Return a chart with the errors of all contenders, kept region after region."""
-    for number, (name, region) in enumerate(regions.items()):
-        progress(f"errors, {name}", _TIMED + (1 - _TIMED) * number / len(regions))
-        for runner, entry in zip(runners, made["contenders"], strict=True):
-            errors = off(runner, region)
-            for kind in KINDS:
-                entry["errors"][kind][name] = worst_and_median(getattr(errors, kind))
-        made["regions"] = {"measured": number + 1, "of": len(regions)}
-        keep(made)
-    return made
+    regions = {region.name: region for region in REGIONS}
+    return _chart({}, "one interface", effort, runs, least, regions, off, progress, keep)
 
 
 def _different(path: PathGraph, effort: Effort) -> list[Composer]:
@@ -185,50 +165,57 @@ def _different(path: PathGraph, effort: Effort) -> list[Composer]:
     return list(results.values())
 
 
-def _entry(runner: Composer) -> dict[str, Any]:
-    return {
-        **{word: getattr(runner, word) for word in WORDS},
-        "eps": float(np.finfo(runner.dtype).eps),
-        "errors": {kind: {} for kind in KINDS},
-    }
-
-
-def _time(
-    entries: list[dict[str, Any]],
-    actions: Sequence[Callable[[], Any]],
+def _chart(
+    made: dict[str, Any],
+    title: str,
     effort: Effort,
+    runs: Sequence[Run],
+    least: Mapping[str, float],
+    regions: Mapping[str, Any],
+    off: Callable[[Composer, Any], Errors],
     progress: Progress,
-) -> None:
-    """Time the actions in turn, so that what disturbs one disturbs all."""
-    for number, action in enumerate(actions):
-        progress("composing and compiling", 0.9 * _TIMED * number / len(actions))
+    keep: Keep,
+) -> dict[str, Any]:
+    """Add to a chart the times of all contenders, and their errors, kept region after region."""
+    entries: list[dict[str, Any]] = [
+        {
+            **{word: getattr(runner, word) for word in WORDS},
+            "eps": float(np.finfo(runner.dtype).eps),
+            "errors": {kind: {} for kind in KINDS},
+        }
+        for runner, _ in runs
+    ]
+    for number, (_, action) in enumerate(runs):
+        progress("composing and compiling", 0.9 * _TIMED * number / len(runs))
         action()
     turns = []
     for turn in range(effort.rounds):
         progress("times", _TIMED * (0.9 + 0.1 * turn / effort.rounds))
-        turns.append([seconds_of(action) * 1e9 / PATHS for action in actions])
+        # In turn, so that what disturbs one disturbs all.
+        turns.append([seconds_of(action) * 1e9 / PATHS for _, action in runs])
     for entry, taken in zip(entries, zip(*turns, strict=True), strict=True):
         entry["ns"] = {"least": min(taken), "median": float(np.median(taken))}
-
-
-def _chart(
-    title: str, results: list[dict[str, Any]], least: Mapping[str, float], effort: Effort
-) -> dict[str, Any]:
-    return {
+    machine = {"system": platform.system(), "processor": platform.machine(), "model": processor()}
+    made |= {
         "format": FORMAT,
         "title": title,
-        "contenders": results,
+        "contenders": entries,
         "limits_ns": dict(least),
         "fails_above": LIMIT,
         "paths": PATHS,
         "effort": effort.told(),
-        "machine": {
-            "system": platform.system(),
-            "processor": platform.machine(),
-            "model": processor(),
-        },
+        "machine": machine,
         "versions": software(["numpy"]),
     }
+    for number, (name, region) in enumerate(regions.items()):
+        progress(f"errors, {name}", _TIMED + (1 - _TIMED) * number / len(regions))
+        for (runner, _), entry in zip(runs, entries, strict=True):
+            errors = off(runner, region)
+            for kind in KINDS:
+                entry["errors"][kind][name] = worst_and_median(getattr(errors, kind))
+        made["regions"] = {"measured": number + 1, "of": len(regions)}
+        keep(made)
+    return made
 
 
 def many_paths(path: PathGraph, count: int) -> tuple[nx.MultiDiGraph, dict[str, Any]]:
@@ -262,7 +249,7 @@ def kernel_operations(kernel: Kernel, arguments: int) -> Counter[str]:
     """
     recorder = Recorder(np.dtype("float64"))
     # Not made_for, which would keep what is made for these primitives, used once.
-    kernel.factory(SYMBOLIC)(*[recorder.input(str(place)) for place in range(arguments)])
+    kernel.factory(SYMBOLIC)(*map(recorder.input, map(str, range(arguments))))
     return Counter(symbol.operation for symbol in recorder.symbols)
 
 
@@ -278,13 +265,13 @@ def critical_chart(
     title: str,
     places: Sequence[str],
     samples: int = SAMPLES,
-    progress: Callable[[str, float], object] = lambda *_: None,
-    keep: Callable[[dict[str, Any]], object] = lambda _: None,
+    progress: Progress = lambda *_: None,
+    keep: Keep = lambda _: None,
 ) -> dict[str, Any]:
     """Measure every method (float64, NumPy, Stokes) at many distances from critical places."""
     wanted = places_called(places)
     measured = _of_interface(samples) if path is None else _of_path(path, title, samples)
-    results: list[dict[str, Any]] = []
+    entries: list[dict[str, Any]] = []
     made: dict[str, Any] = {
         "format": FORMAT,
         "drawn": CRITICAL,
@@ -293,39 +280,34 @@ def critical_chart(
         "eps": float(np.finfo(DTYPE).eps),
         "samples": samples,
         "fails_above": LIMIT,
-        "places": results,
+        "places": entries,
         "versions": software(["numpy"]),
     }
-    total = len(wanted) * len(DISTANCES)
-    for number, place in enumerate(wanted):
-        entry: dict[str, Any] = {"name": place.name, "called": place.called, "distances": []}
-        entry["errors"] = {}
-        results.append(entry)
+    total, done = len(wanted) * len(DISTANCES), 0
+    for place in wanted:
+        entries.append({"name": place.name, "called": place.called, "distances": [], "errors": {}})
         # From afar, where nothing fails yet.
-        for step, distance in enumerate(reversed(DISTANCES)):
-            progress(f"near {place.called}", (number * len(DISTANCES) + step) / total)
-            off = measured(place, distance)
-            entry["distances"].append(distance)
+        for distance in reversed(DISTANCES):
+            progress(f"near {place.called}", done / total)
+            off = measured(place.region(distance))
+            entries[-1]["distances"].append(distance)
             for method, errors in off.items():
-                own = entry["errors"].setdefault(method, {kind: [] for kind in KINDS})
+                own = entries[-1]["errors"].setdefault(method, {kind: [] for kind in KINDS})
                 for kind in KINDS:
                     own[kind].append(worst_and_median(getattr(errors, kind))["worst"])
-            made["regions"] = {"measured": number * len(DISTANCES) + step + 1, "of": total}
+            done += 1
+            made["regions"] = {"measured": done, "of": total}
             keep(made)
     return made
 
 
-def _of_interface(samples: int) -> Measured:
-    def measured(place: CriticalPlace, distance: float) -> dict[str, Errors]:
-        region = place.region(distance)
-        # As on a path: where S is exactly 0, its error is told over A.
-        keywords: Any = {"count": samples, "against_first": True}
-        return {name: interface_errors(name, region, DTYPE, **keywords) for name in METHODS}
-
-    return measured
+def _of_interface(samples: int) -> Callable[[Region], dict[str, Errors]]:
+    # As on a path: where S is exactly 0, its error is told over A.
+    off = partial(interface_errors, dtype=DTYPE, count=samples, against_first=True)
+    return lambda region: {name: off(name, region) for name in METHODS}
 
 
-def _of_path(path: PathGraph, title: str, samples: int) -> Measured:
+def _of_path(path: PathGraph, title: str, samples: int) -> Callable[[Region], dict[str, Errors]]:
     if not interfaces(path):
         raise OptipathError(
             f"'{title}' has no interface that can be put near an angle; chart one that has, or "
@@ -334,14 +316,12 @@ def _of_path(path: PathGraph, title: str, samples: int) -> Measured:
     runners = {}
     for method in METHODS:
         runner = Composer(method, dtype=DTYPE, engine="numpy", composing="stokes")
-        try:
+        with suppress(ComposerError):
             runner.compose(path)
-        except ComposerError:
-            continue
-        runners[method] = runner
+            runners[method] = runner
 
-    def measured(place: CriticalPlace, distance: float) -> dict[str, Errors]:
-        there = trial(path, place.region(distance), DTYPE, samples)
+    def measured(region: Region) -> dict[str, Errors]:
+        there = trial(path, region, DTYPE, samples)
         return {name: path_errors(runner, there, DTYPE) for name, runner in runners.items()}
 
     return measured

@@ -35,7 +35,6 @@ from optipath.kernels.catalog import INCIDENCE
 from optipath.kernels.vertex_chain import Event
 from optipath.lab.boundary_reference import (
     Jones,
-    absorbing_stack,
     along_face,
     between,
     boundary,
@@ -46,6 +45,8 @@ from optipath.lab.many_digits import MANY_DIGITS, Reader, cos_sin, mpmath
 from optipath.values.use import checked_later
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.elements.element import Element
 
 
@@ -113,26 +114,6 @@ def _(element: Vertex, way: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: Polarizer, _: Coupling, read: Reader) -> Jones:
-    return filtering(read, element.transmittance, element.leakage, element.angle)
-
-
-@jones.register
-def _(element: Diattenuator, _: Coupling, read: Reader) -> Jones:
-    return filtering(read, element.maximum, element.minimum, element.angle)
-
-
-@jones.register
-def _(element: Retarder, _: Coupling, read: Reader) -> Jones:
-    return retarding(read, read.angle(element.retardance), element.angle)
-
-
-@jones.register
-def _(element: Rotator, _: Coupling, read: Reader) -> Jones:
-    return turn(-read.angle(element.angle, 2))
-
-
-@jones.register
 def _(element: FaradayRotator, _: Coupling, read: Reader) -> Jones:
     if element.angle is not None:
         return turn(-read.angle(element.angle, 2))
@@ -166,40 +147,25 @@ def _(element: Attenuator, _: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: CircularDiattenuator, _: Coupling, read: Reader) -> Jones:
-    return passing_circular(read.real(element.right), read.real(element.left), 1)
-
-
-@jones.register
-def _(element: Medium, _: Coupling, read: Reader) -> Jones | None:
-    if _is_general(element):
-        return None
-    depth = read.real(element.absorption) * read.real(element.length)
-    left = mpmath.exp(-depth / 2)
-    rotation = read.angle_along(element.rotation, element.length, 2)
-    dextrorotation = read.angle_along(element.dextrorotation, element.length, 2)
-    retardance = read.angle_along(element.retardance, element.length)
-    # Only one of the three is not 0.
-    turned = turn(dextrorotation - rotation)
-    passed = times(retarding(read, retardance, element.angle), turned)
-    return times(diagonal(left, left), passed)
-
-
-@jones.register
-def _(element: Mirror, _: Coupling, read: Reader) -> Jones:
-    return diagonal(read.complex(element.r_s), read.complex(element.r_p))
-
-
-@jones.register
 def _(element: BeamSplitter, way: Coupling, read: Reader) -> Jones:
     reflectance = read.real(element.reflectance)
     root = mpmath.sqrt(reflectance if way.reflects else 1 - reflectance)
     return diagonal(root, -root if way.reflects else root)
 
 
-@jones.register
-def _(_element: Combiner, _way: Coupling, _read: Reader) -> Jones:
-    return diagonal(1, 1)
+_FORMULAS: dict[type[Any], Callable[[Any, Reader], Jones]] = {
+    Polarizer: lambda it, read: filtering(read, it.transmittance, it.leakage, it.angle),
+    Diattenuator: lambda it, read: filtering(read, it.maximum, it.minimum, it.angle),
+    Retarder: lambda it, read: retarding(read, read.angle(it.retardance), it.angle),
+    Rotator: lambda it, read: turn(-read.angle(it.angle, 2)),
+    CircularDiattenuator: lambda it, read: passing_circular(
+        read.real(it.right), read.real(it.left)
+    ),
+    Mirror: lambda it, read: diagonal(read.complex(it.r_s), read.complex(it.r_p)),
+    Combiner: lambda _it, _read: diagonal(1, 1),
+}
+for _kind, _formula in _FORMULAS.items():
+    jones.register(_kind, lambda element, _, read, of=_formula: of(element, read))
 
 
 @singledispatch
@@ -215,24 +181,16 @@ def mueller(element: Element, way: Coupling, read: Reader) -> list[list[Any]]:
 
 @mueller.register
 def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
-    angle = cos_sin(read.angle(element.incidence))
+    _, sine = cos_sin(read.angle(element.incidence))
     indices = [read.index(index) for index in element.indices]
     before = indices[0] if element.incidence_in is None else read.index(element.incidence_in)
-    if way.enters == "back":
-        indices.reverse()
+    depths = []
     if any(index.imag for index in indices[1:-1]):
-        return absorbing_stack(
-            indices, _depths(element, way, read), before.real * angle[1], way=way.reflects
-        )
-    if indices[0] is not before:
-        angle = refracted(before.real / indices[0].real, angle[1])
-    return stack(indices, *angle, way=way.reflects)
-
-
-def _depths(stack: LayerStack, way: Coupling, read: Reader) -> list[Any]:
-    wavelength = read.real(stack.wavelength)
-    depths = [4 * mpmath.pi * read.real(length) / wavelength for length in stack.lengths or ()]
-    return depths[::-1] if way.enters == "back" else depths
+        wavelength = read.real(element.wavelength)
+        lengths = map(read.real, element.lengths or ())
+        depths = [4 * mpmath.pi * length / wavelength for length in lengths]
+    turn = slice(None, None, -1 if way.enters == "back" else 1)
+    return stack(indices[turn], before.real * sine, depths[turn], way=way.reflects)
 
 
 @mueller.register
@@ -247,20 +205,13 @@ def _(_: MuellerElement, way: Coupling, read: Reader) -> list[list[Any]]:
     return [numbers[row : row + 4] for row in range(0, 16, 4)]
 
 
-def _is_general(element: Medium) -> bool:
-    """Tell whether a medium does more than absorb, and one more thing."""
-    rotates = not (vanishes(element.rotation) and vanishes(element.dextrorotation))
-    others = element.dichroism, element.circular_dichroism, element.depolarization
-    return not all(map(vanishes, others)) or (rotates and not vanishes(element.retardance))
-
-
 def exponential(dichroism: Any, retardance: Any, depth: Any = 0, depolarization: Any = 0) -> Any:
     """Return the Mueller matrix of a generator."""
-    (p1, p2, p3), (q1, q2, q3), d = dichroism, retardance, depth + depolarization
+    (p1, p2, p3), (q1, q2, q3), d = dichroism, retardance, depolarization
     generator = mpmath.matrix(
-        [[-depth, p1, p2, p3], [p1, -d, -q3, q2], [p2, q3, -d, -q1], [p3, -q2, q1, -d]]
+        [[0, p1, p2, p3], [p1, -d, -q3, q2], [p2, q3, -d, -q1], [p3, -q2, q1, -d]]
     )
-    return mpmath.expm(generator, method="taylor").tolist()
+    return (mpmath.exp(-depth) * mpmath.expm(generator, method="taylor")).tolist()
 
 
 @mueller.register
@@ -270,11 +221,9 @@ def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
     rotation = read.angle_along(element.rotation, element.length, 2)
     rotation -= read.angle_along(element.dextrorotation, element.length, 2)
     retardance = read.angle_along(element.retardance, element.length)
-    linear, circular = (
-        length * read.real(rate) for rate in (element.dichroism, element.circular_dichroism)
-    )
-    fast = cos_sin(2 * read.angle(element.angle, 2))
-    dichroic = fast
+    linear = length * read.real(element.dichroism)
+    circular = length * read.real(element.circular_dichroism)
+    fast = dichroic = cos_sin(2 * read.angle(element.angle, 2))
     if element.dichroic_angle is not None:
         dichroic = cos_sin(2 * read.angle(element.dichroic_angle, 2))
     return exponential(  # type: ignore[no-any-return]
@@ -287,7 +236,7 @@ def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
 
 @mueller.register
 def _(element: EllipticalRetarder, _: Coupling, read: Reader) -> list[list[Any]]:
-    turns = tuple(read.angle(part) for part in (element.s1, element.s2, element.s3))
+    turns = map(read.angle, (element.s1, element.s2, element.s3))
     return exponential((0, 0, 0), turns)  # type: ignore[no-any-return]
 
 
@@ -314,7 +263,7 @@ def delaying(retardance: Any) -> Jones:
     return diagonal(1, mpmath.mpc(*cos_sin(retardance)))
 
 
-def passing_circular(transmittance: Any, leakage: Any, sign: Any) -> Jones:
+def passing_circular(transmittance: Any, leakage: Any, sign: Any = 1) -> Jones:
     """Return what lets through circular light, that whose S3 has a sign and the other."""
     stored, missing = mpmath.sqrt(transmittance), mpmath.sqrt(leakage)
     # The field (1, i) has S3 > 0.

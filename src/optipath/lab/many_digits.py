@@ -17,20 +17,8 @@ if TYPE_CHECKING:
 
     from optipath.values.parameters import Resolved
 
-__all__ = [
-    "DIGITS",
-    "MANY_DIGITS",
-    "WORKING_DIGITS",
-    "Reader",
-    "cos_sin",
-    "exact_angle",
-    "exactly",
-    "mpmath",
-]
-
-
 with needing("50-digit references"):
-    import mpmath
+    import mpmath as mpmath  # noqa: PLC0414 - for the other references
 
 DIGITS = 50
 WORKING_DIGITS = 2 * DIGITS
@@ -130,9 +118,8 @@ class Reader:
 
     def angle(self, value: Any, turns: int = 1) -> Any:
         """Return an angle in rad; its tangent, or that of `turns` times it, may be moved."""
-        return self.move(
-            exact_angle(float(self.pick(operand_of(value).numbers(self.given)))), turns
-        )
+        number = self.pick(operand_of(value).numbers(self.given))
+        return self.move(exact_angle(float(number)), turns)
 
     def angle_along(self, per_length: Any, length: Any, turns: int = 1) -> Any:
         """Return an angle that grows with a length in metres, both given; else as `angle`."""
@@ -141,7 +128,6 @@ class Reader:
     def near_multiple(self, angle: Any, turns: int = 1) -> Any:
         """Return an angle in rad that is a product; a multiple of 45 degrees is one exactly."""
         nearest = exact_angle(float(angle))
-        # A multiple of 45 degrees is one, however its factors are rounded.
         return self.move(nearest if nearest != float(angle) else angle, turns)
 
     def exact(self, operand: Operand) -> Any:

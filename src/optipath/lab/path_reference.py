@@ -55,8 +55,7 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
     >>> [float(part) for part in exact_stokes(op.load_preset("malus", angle=0.0))["eye"]]
     [0.5, 0.5, 0.0, 0.0]
     """
-    argument = _single(path, parameters)
-    wiring = _wiring(path.graph)
+    argument, wiring = _single(path, parameters), _wiring(path.graph)
     with mpmath.workdps(_digits(wiring, Reader(argument, (), ()))):
         return _Walk(wiring, Reader(argument, (), ())).stokes()
 
@@ -129,13 +128,9 @@ class _Walk:
         """Solve for the light where it meets, in all four components."""
         arriving = [added(self._lights(junction)) for junction in loop.junctions]
         arguments = [part for light in arriving for part in stokes_of(light)]
-        size = len(arguments)
-        system = mpmath.eye(size)
-        for column in range(size):
-            unit = [mpmath.mpf(row == column) for row in range(size)]
-            back = self._once_round(loop, unit)
-            for row in range(size):
-                system[row, column] -= back[row]
+        units = mpmath.eye(len(arguments)).tolist()
+        back = mpmath.matrix([self._once_round(loop, unit) for unit in units])
+        system = mpmath.eye(len(arguments)) - back.T
         self._once_round(loop, _solved(system, arguments))
 
     def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
@@ -151,14 +146,13 @@ class _Walk:
     def _lights(self, port: Port, within: set[Port] | None = None) -> list[Jones]:
         """Return what arrives at a port, from ports within some alone."""
         name, way = port
-        if way in self.wiring.elements[name].inputs:
-            before = [(link, (link[0], link[2][0])) for link in self.wiring.links_to[port]]
-            return [
-                passed(self._turn(link), self.at[start])
-                for link, start in before
-                if self._is_there(start, within)
-            ]
         results = []
+        if way in self.wiring.elements[name].inputs:
+            for link in self.wiring.links_to[port]:
+                start = link[0], link[2][0]
+                if self._is_there(start, within):
+                    results.append(passed(self._turn(link), self.at[start]))
+            return results
         for coupling in self.wiring.couplings[name]:
             if coupling.leaves != way:
                 continue
@@ -208,14 +202,13 @@ class _Walk:
             return light
         key = name, coupling.enters, coupling.leaves
         if key not in self._known:
-            matrix: Any = jones(element, coupling, self.read)
-            rows = mueller(element, coupling, self.read) if matrix is None else None
-            self._known[key] = matrix, rows
-        matrix, rows = self._known[key]
-        if matrix is not None:
+            matrix = jones(element, coupling, self.read)
+            self._known[key] = matrix or mueller(element, coupling, self.read)
+        matrix = self._known[key]
+        if len(matrix) == 2:
             return passed(matrix, light)
         stokes = stokes_of(light)
-        return coherency([sum(m * s for m, s in zip(row, stokes, strict=True)) for row in rows])
+        return coherency([sum(m * s for m, s in zip(row, stokes, strict=True)) for row in matrix])
 
     def _absent(self, element: Element) -> bool:
         optional = [p for p in element.parameters() if p.optional]

@@ -69,29 +69,26 @@ class Region:
     @property
     def dimensions(self) -> int:
         """How many random numbers a sample is made of."""
-        rolls: list[Floats] = []
-
-        def roll() -> Floats:
-            rolls.append(np.full(1, 0.5))
-            return rolls[-1]
-
-        self.draw(Dice(1, roll, np.finfo(np.float64)))
-        return len(rolls)
+        dice = Dice(1, lambda: np.full(1, 0.5), np.finfo(np.float64))
+        self.draw(dice)
+        return dice.rolls
 
     def _drawn(self, dice: Dice, dtype: str) -> Samples:
         return Samples(*(np.broadcast_to(x, dice.count).astype(dtype) for x in self.draw(dice)))
 
 
 class Dice:
-    """Numbers for one region, made of others within 0 .. 1 that are rolled."""
+    """Numbers for one region, made of others within 0 .. 1 that are rolled, and counted."""
 
     def __init__(self, count: int, roll: Callable[[], Floats], precision: Any) -> None:
         self.count = count
         self.precision = precision
+        self.rolls = 0
         self._roll = roll
 
     def even(self, low: float, high: float) -> Floats:
         """Return numbers spread evenly."""
+        self.rolls += 1
         numbers: Floats = low + (high - low) * self._roll()
         # What is computed from them has the digits of the precision, if that is more.
         return numbers.astype(np.result_type(self.precision.dtype, np.float64))
@@ -129,21 +126,20 @@ def _generic(dice: Dice) -> tuple[Floats, ...]:
     return dice.even(0.1, 5), dice.some(dice.even(0.01, 8)), *_at(angle)
 
 
-def _next_to(dice: Dice, tangent: Floats) -> tuple[Floats, Floats]:
-    """Return cos and sin 1e-12 (or some roundings) to 1e-1 rad beside the angle of a tangent."""
+def _next_to(dice: Dice, tangent: Floats, distance: float | None = None) -> tuple[Floats, Floats]:
+    """Return cosine and sine at a distance in rad on either side of the angle of a tangent.
+
+    It is 1e-12, or some roundings, to 1e-1 by default.
+    """
     least = max(1e-12, 64.0 * float(dice.precision.eps))
-    return beside(tangent, dice.sign() * dice.decades(least, 1e-1))
-
-
-def beside(tangent: Floats, off: Floats) -> tuple[Floats, Floats]:
-    """Return cosine and sine at an offset in rad from the angle of a tangent."""
+    off = dice.sign() * (dice.decades(least, 1e-1) if distance is None else distance)
     t = np.abs((tangent + np.tan(off)) / (1.0 - tangent * np.tan(off)))
     return 1.0 / np.hypot(1.0, t), t / np.hypot(1.0, t)
 
 
-def _brewster(dice: Dice) -> tuple[Floats, ...]:
+def _brewster(dice: Dice, distance: float | None = None) -> tuple[Floats, ...]:
     n = np.where(dice.sign() > 0, dice.even(1.05, 4), dice.even(0.25, 0.95))
-    return n, np.zeros(1), *_next_to(dice, n)
+    return n, np.zeros(1), *_next_to(dice, n, distance)
 
 
 def _critical(dice: Dice, k: Floats) -> tuple[Floats, ...]:
@@ -264,37 +260,31 @@ class CriticalPlace:
         return Region(self.name, lambda dice: self.draw(dice, distance))
 
 
-def _near_brewster(dice: Dice, distance: float) -> tuple[Floats, ...]:
-    n = np.where(dice.sign() > 0, dice.even(1.05, 4), dice.even(0.25, 0.95))
-    return n, np.zeros(1), *beside(n, dice.sign() * distance)
-
-
 def _near_critical(dice: Dice, distance: float) -> tuple[Floats, ...]:
     n, k = dice.even(0.2, 0.95), dice.some(dice.decades(1e-20, 1e-3))
-    return n, k, *beside(n / np.sqrt((1 - n) * (1 + n)), dice.sign() * distance)
+    return n, k, *_next_to(dice, n / np.sqrt((1 - n) * (1 + n)), distance)
 
 
 def _medium(dice: Dice) -> tuple[Floats, Floats]:
     return dice.even(0.1, 5), dice.some(dice.even(0.01, 8))
 
 
-def _near_grazing(dice: Dice, distance: float) -> tuple[Floats, ...]:
-    return *_medium(dice), np.full(1, np.sin(distance)), np.full(1, np.cos(distance))
-
-
-def _normal(dice: Dice, distance: float) -> tuple[Floats, ...]:
+def _near_normal(dice: Dice, distance: float) -> tuple[Floats, ...]:
     return *_medium(dice), np.full(1, np.cos(distance)), np.full(1, np.sin(distance))
 
 
-PLACES = {
-    place.name: place
-    for place in (
-        CriticalPlace("brewster", "Brewster's angle", _near_brewster),
-        CriticalPlace("critical", "the critical angle", _near_critical),
-        CriticalPlace("grazing", "grazing incidence", _near_grazing),
-        CriticalPlace("normal", "the normal", _normal),
-    )
-}
+def _near_grazing(dice: Dice, distance: float) -> tuple[Floats, ...]:
+    n, k, cos, sin = _near_normal(dice, distance)
+    return n, k, sin, cos
+
+
+_PLACES = (
+    CriticalPlace("brewster", "Brewster's angle", _brewster),
+    CriticalPlace("critical", "the critical angle", _near_critical),
+    CriticalPlace("grazing", "grazing incidence", _near_grazing),
+    CriticalPlace("normal", "the normal", _near_normal),
+)
+PLACES = {place.name: place for place in _PLACES}
 
 
 def places_called(names: Sequence[str]) -> list[CriticalPlace]:

@@ -55,7 +55,8 @@ def _matrix(step: str, values: Values) -> list[list[Any]]:
     """Return the rows of the Mueller matrix of a step."""
     if step.endswith(" by layers"):
         indices = [mpmath.mpc(*map(mpmath.mpf, pair)) for pair in values["indices"]]
-        return stack(indices, *_incidence(values), way=step.startswith("reflection"))
+        y = indices[0].real * _incidence(values)[1]
+        return stack(indices, y, way=step.startswith("reflection"))
     matrix = _jones(step, {name: mpmath.mpf(text) for name, text in values.items()})
     columns = [stokes_of(passed(matrix, coherency(unit))) for unit in mpmath.eye(4).tolist()]
     return [list(row) for row in zip(*columns, strict=True)]

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.kernels.kernel import Kernel, KernelFamily
+    from optipath.kernels.kernel import KernelFamily
     from optipath.lab.regions import Dice
 
     Floats = npt.NDArray[np.floating]
@@ -47,12 +47,8 @@ class TextTable(NamedTuple):
 
 def tables(samples: int) -> list[TextTable]:
     """Return the tables of reflection in float64 and float32, and of transmission."""
-    return [
-        _reflection("float64", "componentwise", samples),
-        _reflection("float64", "normwise", samples),
-        _reflection("float32", "componentwise", samples),
-        _transmission(samples),
-    ]
+    wanted = ("float64", "componentwise"), ("float64", "normwise"), ("float32", "componentwise")
+    return [*(_reflection(*each, samples) for each in wanted), _transmission(samples)]
 
 
 def searched_tables(generations: int) -> list[TextTable]:
@@ -172,7 +168,7 @@ ANYWHERE = Region("anywhere", _anywhere)
 
 
 class WorstCase(NamedTuple):
-    """The worst case that was found. Units: error in ulp."""
+    """The worst case that was found, and its error in ulp."""
 
     error: float
     n: float
@@ -217,7 +213,9 @@ def worst(
         units = _children(rng, stored)
         if generation % _LIFE == 0:  # A climb that has come to its top begins elsewhere.
             units, known, stored = rng.random(units.shape), known[:0], stored[:, :0]
-    return _measured(kernel, region.at(best[1], dtype), component, what, dtype)
+    sample = region.at(best[1], dtype)
+    error = _measured(matrix_numbers(kernel, sample), sample, component, what, dtype)
+    return WorstCase(error, *[float(part[0]) for part in sample])
 
 
 def _children(rng: np.random.Generator, parents: Floats) -> Floats:
@@ -275,18 +273,16 @@ def _ulp(number: Floats, dtype: Any) -> Floats:
     return np.asarray(np.ldexp(np.ones((), number.dtype), exponent - kind.nmant))
 
 
-def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype: str) -> WorstCase:
-    result, place = matrix_numbers(kernel, sample), "ABCS".index(component[0])
-    arguments = [part[0] for part in sample]
+def _measured(result: Floats, sample: Samples, component: str, what: str, dtype: str) -> float:
+    """Return the error against 50 digits; 0 where C is near 0 and another is asked for."""
+    place, of_zeros = "ABCS".index(component[0]), component == "C near 0"
     with mpmath.workdps(WORKING_DIGITS):
-        exact = REFERENCES[what](*map(exactly, arguments))
+        exact = REFERENCES[what](*[exactly(part[0]) for part in sample])
         value, condition = exact.values[place], exact.conditions[place]
         has_zeros = component[0] == "C" and what == "reflection"
         near = has_zeros and is_near_double_zero(exact.values[0], value, condition)
-        if component == "C near 0":
-            off = in_ulp(abs(exactly(result[0, place]) - value), exact.values[0], dtype)
-        else:
-            off = float(errors(result, [exact], dtype).componentwise[0, place])
-        if near != (component == "C near 0"):
-            off = 0.0
-    return WorstCase(off, *map(float, arguments))
+        if near != of_zeros:
+            return 0.0
+        if of_zeros:
+            return in_ulp(abs(exactly(result[0, place]) - value), exact.values[0], dtype)
+        return float(errors(result, [exact], dtype).componentwise[0, place])

@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.materials.formulas import EVERYWHERE, DrudeRotation, several
+from optipath.errors import ValueFault
+from optipath.materials.formulas import (
+    EVERYWHERE,
+    MICROMETRES,
+    REAL,
+    Coefficient,
+    FormulaCurve,
+    coefficients,
+    several,
+)
 from optipath.materials.tables import Tabulated
 from optipath.values.arrays import as_argument, numbers_for
 from optipath.values.curve_value import curve_at
@@ -15,7 +24,7 @@ from optipath.values.parameters import label_of
 from optipath.values.units import dimension_of, parse_quantity, unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Hashable, Sequence
 
 
 def tabulated(
@@ -44,23 +53,12 @@ def tabulated(
         and teslas.
     label : str, optional
         What sentences call it.
-    interpolation : {"linear", "monotone"}, optional
-        By straight lines, or by cubics that overshoot no sample.
-    extrapolate : {"", "nearest", "linear"}, optional
-        What it is beyond its samples: an error, the last sample, or the straight line on.
-    wavelength : Parameter, float, str or array_like, optional
-        The wavelength of the run; ``Wavelength()`` by default.
+    interpolation, extrapolate, wavelength
+        As `Material.tabulated` takes them.
 
     Returns
     -------
     CurveValue, or float or ndarray where the wavelength is known
-
-    Raises
-    ------
-    ValueFault
-        With all that is wrong with the samples.
-    UnitError
-        If the unit is unknown.
 
     Examples
     --------
@@ -79,22 +77,14 @@ def tabulated(
     row = np.asarray(numbers)
     if unit and not texts and row.dtype.kind in "iuf":
         numbers = np.reshape([parse(f"{one} {unit}").real for one in row.flat], row.shape)
-    curve = Tabulated(
-        label,
-        ("value",),
-        wavelengths,
-        (numbers,),
-        interpolation=interpolation,
-        extrapolate=extrapolate,
-        unit=unit,
-    )
-    return curve_at(curve, wavelength)[0]
+    how = {"interpolation": interpolation, "extrapolate": extrapolate, "unit": unit}
+    return curve_at(Tabulated(label, ("value",), wavelengths, (numbers,), **how), wavelength)[0]
 
 
 def drude_rotation(
-    strengths: Sequence[float],
-    poles: Sequence[float],
-    constant: float = 0.0,
+    strengths: Sequence[Any],
+    poles: Sequence[Any],
+    constant: Any = 0.0,
     unit: str = "rad/m",
     *,
     label: str = "the rotation",
@@ -108,31 +98,22 @@ def drude_rotation(
 
     Parameters
     ----------
-    strengths : sequence of float
+    strengths : sequence of float or Parameter
         A, in the unit times square micrometres.
-    poles : sequence of float
+    poles : sequence of float or Parameter
         C, in square micrometres: the square of the wavelength of a resonance.
-    constant : float, optional
+    constant : float or Parameter, optional
         What is added, in the unit.
     unit : str, optional
         Such as ``"deg/mm"``, or ``"rad/(T m)"``.
     label : str, optional
         What sentences call it.
-    span : pair of float or str, optional
-        The wavelengths for which it holds.
-    wavelength : Parameter, float, str or array_like, optional
-        The wavelength of the run; ``Wavelength()`` by default.
+    span, wavelength
+        As `Material.sellmeier` takes them.
 
     Returns
     -------
     CurveValue, or float or ndarray where the wavelength is known
-
-    Raises
-    ------
-    ValueFault
-        If there are not as many strengths as poles, or one is no finite number.
-    UnitError
-        If the unit is unknown.
 
     Examples
     --------
@@ -144,12 +125,45 @@ def drude_rotation(
     21.725
     """
     label = label_of("a rotation", label, "the rotation")
-    curve = DrudeRotation(
-        label,
-        several(f"strengths of {label}", strengths),
-        several(f"poles of {label}", poles),
-        constant,
-        unit,
-        span,
-    )
-    return curve_at(curve, wavelength)[0]
+    return curve_at(DrudeRotation(label, strengths, poles, constant, unit, span), wavelength)[0]
+
+
+class DrudeRotation(FormulaCurve):
+    """A constant and the sum of A / (w^2 - C), w in um, times a unit; NaN at a resonance."""
+
+    parts = ("value",)
+    strengths: tuple[Any, ...]
+    poles: tuple[Any, ...]
+    constant: Any
+
+    def __init__(
+        self, label: str, strengths: Any, poles: Any, constant: Any, unit: str, span: Any
+    ) -> None:
+        strengths = several(f"strengths of {label}", strengths)
+        poles = several(f"poles of {label}", poles)
+        if len(strengths) != len(poles):
+            raise ValueFault(
+                f"{label} has {len(strengths)} strengths and {len(poles)} poles; give one of each "
+                f"for each resonance"
+            )
+        super().__init__(label, span, constant=constant, strengths=strengths, poles=poles)
+        vars(self).update(unit=unit, _size=parse_quantity(f"1 {unit}", dimension_of(unit)))
+
+    def arguments(self) -> list[Coefficient]:
+        rows = [*coefficients("strengths", self.strengths), *coefficients("poles", self.poles)]
+        return [("constant", self.constant, REAL), *rows]
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        return self.unit, *super().content
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        constant, *rest = arguments
+        square = (wavelength * MICROMETRES) ** 2
+        total, half = constant + 0.0 * square, len(self.poles)
+        for strength, pole in zip(rest[:half], rest[half:], strict=True):
+            away = square - pole
+            at_resonance = away == 0.0
+            term = strength / xp.where(at_resonance, 1.0, away)
+            total = total + xp.where(at_resonance, xp.nan, term)
+        return (vars(self)["_size"] * total,)

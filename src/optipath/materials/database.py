@@ -7,18 +7,10 @@ from decimal import Decimal, InvalidOperation
 from html import unescape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import (
-    Fault,
-    MaterialError,
-    OptipathError,
-    collecting,
-    shown,
-    unknown,
-)
+from optipath.errors import Fault, MaterialError, OptipathError, collecting, shown, unknown
 from optipath.materials.database_names import (
     CURATED,
     VACUUM,
-    CatalogPage,
     NamedPage,
     alike,
     catalog_pages,
@@ -35,18 +27,14 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
     from os import PathLike
 
-    from optipath.materials.database_names import CuratedName
     from optipath.values.curve import Curve
 
 
+USUAL = {"interpolation": "linear", "extrapolate": ""}
+
+
 def parts_by_name(
-    name: str,
-    page: str,
-    own: Mapping[str, Any],
-    wavelength: Any,
-    *,
-    interpolation: str,
-    extrapolate: str,
+    name: str, page: str, own: Mapping[str, Any], wavelength: Any, how: Mapping[str, str]
 ) -> dict[str, Any]:
     """Return n and k of a material by its name. Units: wavelength in metres."""
     arguments = {part: value for part, value in own.items() if value is not None}
@@ -56,54 +44,41 @@ def parts_by_name(
     clear = result.curated.clear if result.curated and "k" not in arguments else None
     if clear:
         arguments["k"] = 0.0
-    how = {"interpolation": interpolation, "extrapolate": extrapolate}
-    curve = curve_of(result, own=arguments, within=clear, **how)
-    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **arguments}
+    return _at(curve_of(result, arguments, how, clear), wavelength, arguments)
 
 
 def parts_of_file(
-    path: str | PathLike[str],
-    own: Mapping[str, Any],
-    wavelength: Any,
-    *,
-    interpolation: str,
-    extrapolate: str,
+    path: str | PathLike[str], own: Mapping[str, Any], wavelength: Any, how: Mapping[str, str]
 ) -> dict[str, Any]:
     """Return n and k at wavelengths in metres from a YAML file of refractiveindex.info."""
     arguments = {part: value for part, value in own.items() if value is not None}
     file = input_file(path, MaterialError)
-    curve = page_curve(
-        read_yaml(file, str(file), installed=False),
-        file.name,
-        str(file),
-        wanted=_wanted(file.name, arguments),
-        interpolation=interpolation,
-        extrapolate=extrapolate,
-    )
-    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **arguments}
+    contents = read_yaml(file, str(file), installed=False)
+    wanted = _wanted(file.name, arguments)
+    return _at(page_curve(contents, file.name, str(file), wanted, how), wavelength, arguments)
+
+
+def _at(curve: PageCurve, wavelength: Any, own: Mapping[str, Any]) -> dict[str, Any]:
+    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **own}
 
 
 def curve_of(
     result: NamedPage,
-    *,
     own: Mapping[str, Any],
+    how: Mapping[str, str],
     within: tuple[float, float] | None = None,
-    interpolation: str = "linear",
-    extrapolate: str = "",
 ) -> PageCurve:
     """Return the curve of a page of the database, without the parts that are given apart."""
-    how = {"interpolation": interpolation, "extrapolate": extrapolate}
-    usual = {"interpolation": "linear", "extrapolate": ""}
     about = result.page.place
     return page_curve(
         read_yaml(result.page.file, about, installed=True),
         result.label,
         about,
-        wanted=_wanted(result.name, own),
+        _wanted(result.name, own),
+        how,
         within=within,
-        requests={"name": result.name, **{k: v for k, v in how.items() if v != usual[k]}},
+        requests={"name": result.name, **{k: v for k, v in how.items() if v != USUAL[k]}},
         remedy=f"name another page, or mend a copy of {result.page.file} for Material.from_yaml",
-        **how,
     )
 
 
@@ -123,17 +98,22 @@ def page_curve(
     contents: Any,
     label: str,
     about: str,
+    wanted: Collection[str],
+    how: Mapping[str, str],
     *,
-    wanted: Collection[str] = ("n", "k"),
-    interpolation: str = "linear",
-    extrapolate: str = "",
     within: tuple[float, float] | None = None,
     requests: Mapping[str, str] | None = None,
     remedy: str = "",
 ) -> PageCurve:
     """Return the curve of a page."""
-    faults: list[str] = []
-    entries = entries_of_page(contents, faults)
+    data = contents.get("DATA") if isinstance(contents, dict) else None
+    entries, faults = [], list[str]()
+    if not isinstance(data, list) or not data:
+        faults.append("it has no list DATA of tables and formulas, as refractiveindex.info has")
+        data = []
+    for at, entry in enumerate(data, 1):
+        with collecting(faults, about=f"entry {at} of DATA"):
+            entries.append(_entry(entry))
     if faults:
         raise MaterialError(*[Fault.of(fault).cured(remedy) for fault in faults], about=about)
     # Of two entries that give one part, the later one counts, as the database's reader has it.
@@ -141,14 +121,14 @@ def page_curve(
     if lacking := [part for part in wanted if part not in giving]:
         raise MaterialError(*[_lacking(label, part, giving) for part in lacking])
     chosen = {part: entry for part, entry in giving.items() if part in wanted}
-    faults += unknown("interpolation", interpolation, INTERPOLATIONS)
-    faults += unknown("extrapolate", extrapolate, EXTRAPOLATIONS)
-    if interpolation == "monotone" and not any(entry.columns for entry in chosen.values()):
+    faults += unknown("interpolation", how["interpolation"], INTERPOLATIONS)
+    faults += unknown("extrapolate", how["extrapolate"], EXTRAPOLATIONS)
+    if how["interpolation"] == "monotone" and not any(entry.columns for entry in chosen.values()):
         faults.append(
             f"{label} is by a formula, of which nothing is interpolated; leave interpolation = "
             f"'monotone' out"
         )
-    if extrapolate == "linear" and not all(entry.columns for entry in chosen.values()):
+    if how["extrapolate"] == "linear" and not all(entry.columns for entry in chosen.values()):
         faults.append(
             f"{label} is by a formula, which has no straight line beyond its range; "
             f"{NEAREST_REQUESTED}, or stay within it"
@@ -157,24 +137,24 @@ def page_curve(
         raise MaterialError(*faults)
     try:
         curves = [
-            entry.curve(label, parts, interpolation, extrapolate)
+            entry.curve(label, parts, how)
             for entry in entries
             if (parts := [part for part in entry.parts if chosen.get(part) is entry])
         ]
-        clear = None if extrapolate else within
+        clear = None if how["extrapolate"] else within
         source = source_of(contents)
         return PageCurve(label, curves, within=clear, place=about, source=source, requests=requests)
     except OptipathError as error:
         raise MaterialError(*[fault.cured(remedy) for fault in error.faults]) from None
 
 
-def source_of(contents: Any) -> str:
+def source_of(contents: Mapping[str, Any]) -> str:
     """Return the references of a page as plain text.
 
     >>> source_of({"REFERENCES": "A. Author.<br> <i>J. Opt.</i> <b>1</b>, 2 (1990)"})
     'A. Author. J. Opt. 1, 2 (1990)'
     """
-    text = contents.get("REFERENCES", "") if isinstance(contents, dict) else ""
+    text = contents.get("REFERENCES")
     words = unescape(re.sub(r"<[^>]*>", " ", text)).split() if isinstance(text, str) else []
     return " ".join(words).replace(" ,", ",")
 
@@ -201,31 +181,13 @@ class PageEntry(NamedTuple):
     columns: tuple[tuple[float, ...], ...] = ()
     coefficients: tuple[float, ...] = ()
 
-    def curve(
-        self, label: str, parts: Sequence[str], interpolation: str, extrapolate: str
-    ) -> Curve:
+    def curve(self, label: str, parts: Sequence[str], how: Mapping[str, str]) -> Curve:
         """Return the curve of some of its parts."""
-        if not self.columns:
-            number = int(self.kind.split()[1])
-            return DispersionFormula(
-                label, number, self.coefficients, self.span, extrapolate=extrapolate
-            )
-        wanted = [self.columns[1 + self.parts.index(part)] for part in parts]
-        how = {"interpolation": interpolation, "extrapolate": extrapolate}
-        return Tabulated(label, tuple(parts), self.columns[0], wanted, **how)
-
-
-def entries_of_page(contents: Any, faults: list[str]) -> list[PageEntry]:
-    """Return the entries of a page, and tell what is wrong with others."""
-    data = contents.get("DATA") if isinstance(contents, dict) else None
-    if not isinstance(data, list) or not data:
-        faults.append("it has no list DATA of tables and formulas, as refractiveindex.info has")
-        return []
-    results = []
-    for at, entry in enumerate(data, 1):
-        with collecting(faults, about=f"entry {at} of DATA"):
-            results.append(_entry(entry))
-    return results
+        if self.columns:
+            columns = [self.columns[1 + self.parts.index(part)] for part in parts]
+            return Tabulated(label, tuple(parts), self.columns[0], columns, **how)
+        number, extrapolate = int(self.kind.split()[1]), how["extrapolate"]
+        return DispersionFormula(label, number, self.coefficients, self.span, extrapolate)
 
 
 def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
@@ -235,7 +197,7 @@ def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
         [(parts, _)] = _TYPE.findall(entry["type"])
         if parts:
             words = sorted(entry["data"].split()[:: 1 + len(parts)], key=float)
-            span = _metres_of([Decimal(words[0]), Decimal(words[-1])])
+            span = _metres(Decimal(words[0])), _metres(Decimal(words[-1]))
         else:
             parts, span = "n", _entry(entry).span
         results |= dict.fromkeys(parts, span)
@@ -244,8 +206,7 @@ def spans_of(contents: Any) -> dict[str, tuple[float, float]]:
 
 def _entry(entry: Any) -> PageEntry:
     kind = entry.get("type") if isinstance(entry, dict) else None
-    match = _TYPE.fullmatch(kind) if isinstance(kind, str) else None
-    if not isinstance(kind, str) or match is None:
+    if not isinstance(kind, str) or not (match := _TYPE.fullmatch(kind)):
         raise OptipathError(
             f"is of type {shown(kind)}; give 'tabulated nk', 'tabulated n', 'tabulated k' or "
             f"'formula 1' to 'formula 9'"
@@ -256,25 +217,23 @@ def _entry(entry: Any) -> PageEntry:
     if len(low_high) != 2 or not 0.0 < float(low_high[0]) < float(low_high[1]):
         raise OptipathError("has no 'wavelength_range' of two rising numbers, in micrometres")
     coefficients = tuple(map(float, _numbers(entry, "coefficients")))
-    return PageEntry(kind, ("n",), _metres_of(low_high), coefficients=coefficients)
+    span = _metres(low_high[0]), _metres(low_high[1])
+    return PageEntry(kind, ("n",), span, coefficients=coefficients)
 
 
 def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
     """Return the entry of a table, its rows by wavelength, and each once of those that repeat."""
     if not isinstance(data, str) or not data.strip():
         raise OptipathError(f"('{kind}') has no 'data'; give rows of wavelength and {kind[10:]}")
-    lines = [(at, line.split()) for at, line in enumerate(data.splitlines(), 1) if line.strip()]
     rows: set[tuple[float, ...]] = set()
     faults = []
-    for at, words in lines:
-        numbers = _decimals(words)
-        if len(numbers) != 1 + len(parts):
-            faults.append(
-                f"('{kind}') has {shown(' '.join(words))} in row {at}; give {1 + len(parts)} "
-                f"numbers"
-            )
-            continue
-        rows.add((_metres(numbers[0]), *map(float, numbers[1:])))
+    for at, line in enumerate(data.splitlines(), 1):
+        numbers = _decimals(words := line.split())
+        if len(numbers) == 1 + len(parts):
+            rows.add((_metres(numbers[0]), *map(float, numbers[1:])))
+        elif words:
+            wrong = shown(" ".join(words))
+            faults.append(f"('{kind}') has {wrong} in row {at}; give {1 + len(parts)} numbers")
     if faults:
         raise OptipathError(*faults)
     columns = tuple(zip(*sorted(rows), strict=True))
@@ -296,11 +255,6 @@ def _decimals(words: Sequence[str]) -> list[Decimal]:
     except InvalidOperation:
         return []
     return results if all(n.is_finite() and n.adjusted() < _POWERS for n in results) else []
-
-
-def _metres_of(span: Sequence[Decimal]) -> tuple[float, float]:
-    low, high = map(_metres, span)
-    return low, high
 
 
 def _metres(micrometres: Decimal) -> float:
@@ -342,19 +296,16 @@ def pages_with(words: Sequence[str]) -> list[NamedPage]:
     if not words:
         return short
     requests = [word.casefold() for word in words]
-    first = [one for one in short if _has(_text(one.page, one.curated), requests)]
-    others = [
-        NamedPage(page.place, page)
-        for place, page in pages.items()
-        if place not in {one.page.place for one in first} and _has(_text(page), requests)
-    ]
-    return first + sorted(others, key=lambda one: one.page.book.casefold() not in requests)
+    first = [one for one in short if _mentions(one, requests)]
+    places = {one.page.place for one in first}
+    others = [NamedPage(place, page) for place, page in pages.items() if place not in places]
+    found = [one for one in others if _mentions(one, requests)]
+    return first + sorted(found, key=lambda one: one.page.book.casefold() not in requests)
 
 
-def _has(text: str, words: list[str]) -> bool:
+def _mentions(one: NamedPage, words: Sequence[str]) -> bool:
+    page, names = one.page, one.curated.names if one.curated else ()
+    texts = [page.place, page.about_book, page.about_page, page.divider, *names]
+    texts += [*map(alike, names), one.curated.why if one.curated else ""]
+    text = " ".join(texts).casefold()
     return all(word in text for word in words)
-
-
-def _text(page: CatalogPage, curated: CuratedName | None = None) -> str:
-    names = (*curated.names, *map(alike, curated.names), curated.why) if curated else ()
-    return " ".join([page.place, page.about_book, page.about_page, page.divider, *names]).casefold()

@@ -7,14 +7,10 @@ from functools import cache
 from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from optipath.errors import MaterialError, closest, need, needing, shown
 from optipath.values.files import bytes_of
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 
 VACUUM = "vacuum"
 """The one name without a page: n is 1 and k is 0 at every wavelength."""
@@ -32,12 +28,12 @@ class NamedPage(NamedTuple):
 
     @property
     def label(self) -> str:
-        """What sentences call the material."""
+        """What sentences call the material: ``"gold (Johnson and Christy 1972)"``."""
+        place, reference = self.page.place, self.page.reference
         for one in CURATED:
-            if one.place == self.page.place:
-                return one.label
-        reference = self.page.reference
-        return f"{self.page.place} ({reference})" if reference else self.page.place
+            if one.place == place:
+                return f"{one.names[0]} ({one.reference})"
+        return f"{place} ({reference})" if reference else place
 
 
 def named_page(name: str, page: str = "") -> NamedPage:
@@ -66,8 +62,7 @@ def named_page(name: str, page: str = "") -> NamedPage:
 def of_curated(curated: CuratedName) -> NamedPage:
     """Return the page of a short name, without the catalogue, which takes its time."""
     shelf, book, page = curated.place.split("/")
-    data = curated.data or f"{shelf}/{book}/nk/{page}.yml"
-    known = CatalogPage(shelf, book, page, data=data)
+    known = CatalogPage(shelf, book, page, data=curated.data or f"{shelf}/{book}/nk/{page}.yml")
     return NamedPage(curated.names[0], known, curated)
 
 
@@ -91,12 +86,12 @@ def _underscored(name: str) -> str:
 
 def _ambiguous(name: str, results: list[CatalogPage]) -> str:
     short = next((one.names[0] for one in CURATED for p in results if p.place == one.place), "")
-    messages = [f"'{page.place}' ({page.about_page})" for page in results[:_MOST]]
-    more = f" and {len(results) - _MOST} more" if len(results) > _MOST else ""
+    pages = ", ".join([f"'{page.place}' ({page.about_page})" for page in results[:_MOST]])
+    pages += f" and {len(results) - _MOST} more" if len(results) > _MOST else ""
     also = f", or say '{short}'" if short else ""
     return (
-        f"'{name}' has {len(results)} pages; name one in place of it{also}: "
-        f"{', '.join(messages)}{more} ('optipath materials {name}' lists them)"
+        f"'{name}' has {len(results)} pages; name one in place of it{also}: {pages} "
+        f"('optipath materials {name}' lists them)"
     )
 
 
@@ -124,151 +119,113 @@ class CuratedName(NamedTuple):
     clear: tuple[float, float] | None = None
     data: str = ""
 
-    @property
-    def label(self) -> str:
-        """What sentences call it: ``"gold (Johnson and Christy 1972)"``."""
-        return f"{self.names[0]} ({self.reference})"
+
+def _metal(name: str, symbol: str, year: int = 1974) -> tuple[Any, ...]:
+    why = "evaporated films, the usual reference from the ultraviolet to the near infrared"
+    return name, f"main/{symbol}/Johnson", f"Johnson and Christy {year}", why
 
 
-_NOBLE, _TRANSITION = "Johnson and Christy 1972", "Johnson and Christy 1974"
-_METAL = "evaporated films, the usual reference from the ultraviolet to the near infrared"
+def _glass(name: str, place: str, why: str) -> tuple[Any, ...]:
+    page = f"specs/SCHOTT-optical/{place}"
+    return name, page, "Schott 2017", why, None, f"specs/schott/optical/{place}.yml"
+
+
+def _plastic(name: str, formula: str) -> tuple[Any, ...]:
+    page, file = f"organic/{name}/Sultanova", f"organic/{formula} - {name}/nk/Sultanova.yml"
+    why = "visible light and near infrared"
+    return name, page, "Sultanova et al. 2009", why, (0.437e-6, 1.052e-6), file
 
 
 def _rays(
-    names: tuple[str, ...], place: str, reference: str, clear: tuple[float, float] | None
-) -> list[CuratedName]:
-    """Return the names of the two rays of a crystal."""
-    return [
-        CuratedName(
-            tuple([f"{name}-{ray[0]}" for name in names]),
-            f"{place}-{ray[0]}",
-            reference,
-            ray,
-            clear,
-        )
-        for ray in ("ordinary ray", "extraordinary ray")
-    ]
+    names: str, place: str, reference: str, clear: tuple[float, float] | None
+) -> list[tuple[Any, ...]]:
+    """Return the two rays of a crystal."""
+    rays = []
+    for ray in ("ordinary ray", "extraordinary ray"):
+        both = ", ".join([f"{name}-{ray[0]}" for name in names.split(", ")])
+        rays.append((both, f"{place}-{ray[0]}", reference, ray, clear))
+    return rays
 
 
-CURATED = (
-    CuratedName(("gold",), "main/Au/Johnson", _NOBLE, _METAL),
-    CuratedName(("silver",), "main/Ag/Johnson", _NOBLE, _METAL),
-    CuratedName(("copper",), "main/Cu/Johnson", _NOBLE, _METAL),
-    CuratedName(
-        ("aluminium", "aluminum"), "main/Al/Rakic", "Rakić 1995", "from X-rays to far infrared"
-    ),
-    CuratedName(("chromium",), "main/Cr/Johnson", _TRANSITION, _METAL),
-    CuratedName(("nickel",), "main/Ni/Johnson", _TRANSITION, _METAL),
-    CuratedName(("iron",), "main/Fe/Johnson", _TRANSITION, _METAL),
-    CuratedName(("cobalt",), "main/Co/Johnson", _TRANSITION, _METAL),
-    CuratedName(("palladium",), "main/Pd/Johnson", _TRANSITION, _METAL),
-    CuratedName(("titanium",), "main/Ti/Johnson", _TRANSITION, _METAL),
-    CuratedName(
-        ("platinum",), "main/Pt/Tselin", "Tselin et al. 2024", "ellipsometry, of the widest range"
-    ),
-    CuratedName(
-        ("tungsten",),
+_TABLE: tuple[tuple[Any, ...], ...] = (
+    _metal("gold", "Au", 1972),
+    _metal("silver", "Ag", 1972),
+    _metal("copper", "Cu", 1972),
+    ("aluminium, aluminum", "main/Al/Rakic", "Rakić 1995", "from X-rays to far infrared"),
+    _metal("chromium", "Cr"),
+    _metal("nickel", "Ni"),
+    _metal("iron", "Fe"),
+    _metal("cobalt", "Co"),
+    _metal("palladium", "Pd"),
+    _metal("titanium", "Ti"),
+    ("platinum", "main/Pt/Tselin", "Tselin et al. 2024", "ellipsometry, of the widest range"),
+    (
+        "tungsten",
         "main/W/Werner",
         "Werner et al. 2009",
         "from far ultraviolet to near infrared; the table of Weaver has a wavelength twice",
     ),
-    CuratedName(
-        ("mercury",),
+    (
+        "mercury",
         "main/Hg/Inagaki",
         "Inagaki et al. 1981",
         "liquid, from far ultraviolet to infrared",
     ),
-    CuratedName(
-        ("silicon",), "main/Si/Green-2008", "Green 2008", "crystal at 300 K, self-consistent"
-    ),
-    CuratedName(
-        ("germanium",), "main/Ge/Nunley", "Nunley et al, 2016", "crystal, of the widest range"
-    ),
-    CuratedName(
-        ("GaAs", "gallium arsenide"),
+    ("silicon", "main/Si/Green-2008", "Green 2008", "crystal at 300 K, self-consistent"),
+    ("germanium", "main/Ge/Nunley", "Nunley et al, 2016", "crystal, of the widest range"),
+    (
+        "GaAs, gallium arsenide",
         "main/GaAs/Papatryfonos",
         "Papatryfonos et al. 2021",
         "crystal, beyond the edge of absorption as well",
     ),
-    CuratedName(
-        ("diamond",), "main/C/Phillip", "Phillip and Taft 1964", "the only one from 35 nm to 10 um"
-    ),
-    CuratedName(
-        ("TiO2", "titania"),
+    ("diamond", "main/C/Phillip", "Phillip and Taft 1964", "the only one from 35 nm to 10 um"),
+    (
+        "TiO2, titania",
         "main/TiO2/Siefke",
         "Siefke et al. 2016",
         "amorphous film; the crystal is rutile",
     ),
-    *_rays(("rutile",), "main/TiO2/Devore", "Devore 1951", (0.45e-6, 1.53e-6)),
-    CuratedName(
-        ("silica", "fused silica"),
+    *_rays("rutile", "main/TiO2/Devore", "Devore 1951", (0.45e-6, 1.53e-6)),
+    (
+        "silica, fused silica",
         "main/SiO2/Malitson",
         "Malitson 1965",
         "the usual formula; water in it absorbs from 2.2 um on",
         (0.21e-6, 2.1e-6),
     ),
-    *_rays(("quartz",), "main/SiO2/Ghosh", "Ghosh 1999", (0.198e-6, 2.0531e-6)),
-    *_rays(("calcite",), "main/CaCO3/Ghosh", "Ghosh 1999", (0.23e-6, 2.1e-6)),
-    *_rays(("sapphire",), "main/Al2O3/Malitson", "Malitson and Dodge 1972", (0.2e-6, 4e-6)),
-    *_rays(("MgF2",), "main/MgF2/Dodge", "Dodge 1984", (0.2e-6, 6e-6)),
-    *_rays(
-        ("LiNbO3", "lithium niobate"), "main/LiNbO3/Zelmon", "Zelmon et al. 1997", (0.42e-6, 4e-6)
-    ),
-    *_rays(("BBO",), "main/BaB2O4/Tamosauskas", "Tamošauskas et al. 2018", None),
-    CuratedName(
-        ("CaF2", "fluorite"),
+    *_rays("quartz", "main/SiO2/Ghosh", "Ghosh 1999", (0.198e-6, 2.0531e-6)),
+    *_rays("calcite", "main/CaCO3/Ghosh", "Ghosh 1999", (0.23e-6, 2.1e-6)),
+    *_rays("sapphire", "main/Al2O3/Malitson", "Malitson and Dodge 1972", (0.2e-6, 4e-6)),
+    *_rays("MgF2", "main/MgF2/Dodge", "Dodge 1984", (0.2e-6, 6e-6)),
+    *_rays("LiNbO3, lithium niobate", "main/LiNbO3/Zelmon", "Zelmon et al. 1997", (0.42e-6, 4e-6)),
+    *_rays("BBO", "main/BaB2O4/Tamosauskas", "Tamošauskas et al. 2018", None),
+    (
+        "CaF2, fluorite",
         "main/CaF2/Malitson",
         "Malitson 1963",
         "the usual formula",
         (0.23e-6, 7.5e-6),
     ),
-    CuratedName(
-        ("BK7",),
-        "specs/SCHOTT-optical/N-BK7",
-        "Schott 2017",
-        "N-BK7, which has taken its place",
-        data="specs/schott/optical/N-BK7.yml",
-    ),
+    _glass("BK7", "N-BK7", "N-BK7, which has taken its place"),
     *[
-        CuratedName(
-            (glass,),
-            f"specs/SCHOTT-optical/{glass}",
-            "Schott 2017",
-            f"lead glass; that without lead is N-{glass}",
-            data=f"specs/schott/optical/{glass}.yml",
-        )
-        for glass in ("F2", "SF6", "SF10", "SF11")
+        _glass(name, name, f"lead glass; that without lead is N-{name}")
+        for name in ("F2", "SF6", "SF10", "SF11")
     ],
-    CuratedName(
-        ("PMMA", "acrylic"),
+    (
+        "PMMA, acrylic",
         "organic/poly_methyl_methacrylate/Szczurowski",
         "Szczurowski 2013",
         "from violet to near infrared",
         (0.405e-6, 1.08e-6),
         "organic/(C5H8O2)n - poly(methyl methacrylate)/nk/Szczurowski.yml",
     ),
-    CuratedName(
-        ("polycarbonate",),
-        "organic/polycarbonate/Sultanova",
-        "Sultanova et al. 2009",
-        "visible light and near infrared",
-        (0.437e-6, 1.052e-6),
-        "organic/(C16H14O3)n - polycarbonate/nk/Sultanova.yml",
-    ),
-    CuratedName(
-        ("polystyrene",),
-        "organic/polystyrene/Sultanova",
-        "Sultanova et al. 2009",
-        "visible light and near infrared",
-        (0.437e-6, 1.052e-6),
-        "organic/(C8H8)n - polystyrene/nk/Sultanova.yml",
-    ),
-    CuratedName(
-        ("water",), "main/H2O/Hale", "Hale and Querry 1973", "25 °C, from 200 nm to 200 um"
-    ),
-    CuratedName(("ice",), "main/H2O/Warren-2008", "Warren and Brandt 2008", "the later of two"),
-    CuratedName(
-        ("air",),
+    _plastic("polycarbonate", "(C16H14O3)n"),
+    _plastic("polystyrene", "(C8H8)n"),
+    ("water", "main/H2O/Hale", "Hale and Querry 1973", "25 °C, from 200 nm to 200 um"),
+    ("ice", "main/H2O/Warren-2008", "Warren and Brandt 2008", "the later of two"),
+    (
+        "air",
         "other/air/Ciddor",
         "Ciddor 1996",
         "15 °C, 101325 Pa, 450 ppm CO2",
@@ -276,7 +233,10 @@ CURATED = (
         "other/mixed gases/air/nk/Ciddor.yml",
     ),
 )
-"""The names in the order of the list."""
+"""Names, page, reference and why; where it is clear and the file, where these are needed."""
+
+CURATED = tuple(CuratedName(tuple(names.split(", ")), *rest) for names, *rest in _TABLE)
+"""The short names in the order of the list."""
 
 
 def alike(name: str) -> str:
@@ -336,31 +296,20 @@ class CatalogPage(NamedTuple):
 @cache
 def catalog_pages() -> tuple[CatalogPage, ...]:
     """Return all pages, in the order of the catalogue."""
+    catalog = read_yaml(database_folder() / "catalog-nk.yml", "the catalogue", installed=True)
     results: dict[str, CatalogPage] = {}
-    for page in _pages(
-        read_yaml(database_folder() / "catalog-nk.yml", "the catalogue", installed=True)
-    ):
-        results.setdefault(page.place, page)
-    return tuple(results.values())
-
-
-def _pages(catalog: Any) -> Iterator[CatalogPage]:
-    for shelf in _with(catalog, "SHELF"):
-        for book in _with(shelf["content"], "BOOK"):
+    for shelf in [entry for entry in catalog if "SHELF" in entry]:
+        for book in [entry for entry in shelf["content"] if "BOOK" in entry]:
             divider = ""
             for entry in book["content"]:
                 divider = _untagged(entry.get("DIVIDER", divider))
-                if "PAGE" not in entry:
-                    continue
-                place = f"{shelf['SHELF']}/{book['BOOK']}/{entry['PAGE']}"
-                data = _MISPLACED.get((place, entry["data"]), entry["data"])
-                names = [_untagged(each.get("name", "")) for each in (book, entry)]
-                messages = shelf["SHELF"], book["BOOK"], entry["PAGE"], *names, divider, data
-                yield CatalogPage(*messages)
-
-
-def _with(entries: Any, key: str) -> Iterator[dict[str, Any]]:
-    return (entry for entry in entries if key in entry)
+                if "PAGE" in entry:
+                    names = shelf["SHELF"], book["BOOK"], entry["PAGE"]
+                    about, of_page = [_untagged(each.get("name", "")) for each in (book, entry)]
+                    page = CatalogPage(*names, about, of_page, divider)
+                    data = _MISPLACED.get((page.place, entry["data"]), entry["data"])
+                    results.setdefault(page.place, page._replace(data=data))
+    return tuple(results.values())
 
 
 def _untagged(text: str) -> str:

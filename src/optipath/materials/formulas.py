@@ -1,4 +1,4 @@
-"""Dispersion formulas whose coefficients are numbers or parameters."""
+"""Dispersion formulas: Sellmeier, Cauchy, oscillators, and those of refractiveindex.info."""
 
 from __future__ import annotations
 
@@ -13,28 +13,48 @@ from optipath.kernels.dispersion import (
     DATABASE_FORMULAS,
     cauchy_index,
     coefficients_fit,
+    drude_lorentz_permittivity,
+    index_of_permittivity,
     index_of_square,
     sellmeier_square,
+    tauc_lorentz_permittivity,
 )
+from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.curve import Curve
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
-from optipath.values.precision import real_number
-from optipath.values.units import dimension_of, parse_quantity
 from optipath.values.use import Use
-from optipath.values.wavelength import LONGEST_FIRST, WAVELENGTH, too_long
+from optipath.values.wavelength import HC, LONGEST_FIRST, WAVELENGTH, too_long
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Sequence
+    from collections.abc import Collection, Hashable, Mapping, Sequence
+
+    from optipath.values.parameters import Resolved
 
 
 EVERYWHERE = (0.0, np.inf)
+MICROMETRES = 1e6
+"""How many there are in a metre: the unit of published coefficients."""
+
+
+class _AboveZero(Domain):
+    """Real numbers that are not 0, either."""
+
+    def described(self) -> str:
+        return f"a real {self.name} above 0"
+
+
+REAL = Domain("coefficient")
+POSITIVE = _AboveZero("coefficient", minimum=5e-324)
+NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
+
+Coefficient: TypeAlias = tuple[str, Any, Domain]
 
 
 class FormulaCurve(Curve):
-    """n and k by a published formula. Units: span in metres."""
+    """Numbers by a published formula, whose coefficients are numbers or parameters."""
 
     parts: tuple[str, ...] = ("n", "k")
 
@@ -96,6 +116,27 @@ def read_span(owner: str, span: Any) -> tuple[float, float]:
     return float(ends[0]), float(ends[1])
 
 
+def several(name: str, values: Any) -> tuple[Any, ...]:
+    """Return a row of coefficients as a tuple.
+
+    >>> several("b", [1.0, 2])
+    (1.0, 2)
+    """
+    raw_value = values.tolist() if isinstance(values, np.ndarray) else values
+    is_one = isinstance(raw_value, (str, Parameter)) or not hasattr(raw_value, "__iter__")
+    row = () if is_one else tuple(raw_value)
+    if not row:
+        raise ValueFault(
+            f"{name} must be a row of one coefficient or more, such as [1.0], not {shown(values)}"
+        )
+    return row
+
+
+def coefficients(name: str, row: Sequence[Any], domain: Domain = REAL) -> list[Coefficient]:
+    """Return a row of coefficients, each with its name and domain."""
+    return [(f"{name}[{place}]", value, domain) for place, value in enumerate(row)]
+
+
 class Sellmeier(FormulaCurve):
     """n^2 = offset + the sum of B w^2 / (w^2 - C), with w in micrometres and C in their squares.
 
@@ -116,7 +157,6 @@ class Sellmeier(FormulaCurve):
         label: str,
         b: Any,
         c: Any = None,
-        *,
         resonances: Any = None,
         offset: Any = 1.0,
         span: Any = EVERYWHERE,
@@ -126,26 +166,19 @@ class Sellmeier(FormulaCurve):
                 f"{label} needs c, in square micrometres, or resonances, in micrometres; give one "
                 f"of the two"
             )
-        b, c, resonances = [
-            None if row is None else several(f"{name} of {label}", row)
-            for name, row in (("b", b), ("c", c), ("resonances", resonances))
-        ]
-        if len(b) != len(poles := c or resonances or ()):
-            other = "resonances" if c is None else "c"
+        name, row = ("resonances", resonances) if c is None else ("c", c)
+        b, poles = several(f"b of {label}", b), several(f"{name} of {label}", row)
+        if len(b) != len(poles):
             raise ValueFault(
-                f"{label} has {len(b)} of b and {len(poles)} of {other}; give one for each"
+                f"{label} has {len(b)} of b and {len(poles)} of {name}; give one for each"
             )
-        super().__init__(label, span, b=b, c=c, resonances=resonances, offset=offset)
+        both = {"c": None, "resonances": None, name: poles}
+        super().__init__(label, span, b=b, offset=offset, **both)
 
     def arguments(self) -> list[Coefficient]:
-        name = "resonances" if self.c is None else "c"
-        domain = NOT_NEGATIVE if self.c is None else REAL
-        poles = self.c or self.resonances or ()
-        return [
-            ("offset", self.offset, REAL),
-            *[(f"b[{place}]", value, REAL) for place, value in enumerate(self.b)],
-            *[(f"{name}[{place}]", value, domain) for place, value in enumerate(poles)],
-        ]
+        poles = coefficients("c", self.c or ())
+        poles += coefficients("resonances", self.resonances or (), NOT_NEGATIVE)
+        return [("offset", self.offset, REAL), *coefficients("b", self.b), *poles]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         square = sellmeier_square(xp, wavelength * MICROMETRES, *self.terms(arguments))
@@ -174,173 +207,167 @@ class Cauchy(FormulaCurve):
         super().__init__(label, span, coefficients=row)
 
     def arguments(self) -> list[Coefficient]:
-        names = [f"coefficients[{place}]" for place in range(len(self.coefficients))]
-        return [(name, value, REAL) for name, value in zip(names, self.coefficients, strict=True)]
+        return coefficients("coefficients", self.coefficients)
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         return (cauchy_index(xp, wavelength * MICROMETRES, arguments),)
 
 
-Coefficient: TypeAlias = tuple[str, Any, Domain]
+class Oscillators(FormulaCurve):
+    """n and k of electrons that absorb, each with coefficients of its own; energies in eV."""
 
+    each: dict[str, Domain]
+    """The coefficients of an oscillator."""
+    oscillators: tuple[tuple[Any, ...], ...]
+    background: Any
+    unreal = "its coefficients give no permittivity that is a number"
 
-class _AboveZero(Domain):
-    """Real numbers that are not 0, either."""
-
-    def described(self) -> str:
-        return f"a real {self.name} above 0"
-
-
-REAL = Domain("coefficient")
-POSITIVE = _AboveZero("coefficient", minimum=5e-324)
-NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
-
-MICROMETRES = 1e6
-"""How many there are in a metre: the unit of published coefficients."""
-
-
-def several(name: str, values: Any) -> tuple[Any, ...]:
-    """Return coefficients as a tuple.
-
-    >>> several("b", [1.0, 2])
-    (1.0, 2)
-    """
-    raw_value = values.tolist() if isinstance(values, np.ndarray) else values
-    is_one = isinstance(raw_value, (str, Parameter)) or not hasattr(raw_value, "__iter__")
-    row = () if is_one else tuple(raw_value)
-    if not row:
-        raise ValueFault(
-            f"{name} must be a row of one coefficient or more, such as [1.0], not {shown(values)}"
-        )
-    return row
-
-
-def oscillators_of(label: str, rows: Any, names: tuple[str, ...]) -> tuple[tuple[Any, ...], ...]:
-    """Return the coefficients of oscillators, so many of each.
-
-    >>> oscillators_of("gold", [[0.02, 0.4]], ("strength", "energy"))
-    ((0.02, 0.4),)
-    """
-    if not hasattr(rows, "__iter__") or not all(hasattr(row, "__len__") for row in rows):
-        rows = [()]
-    if any(len(row) != len(names) for row in rows):
-        raise ValueFault(
-            f"oscillators of {label}: give a row of {len(names)} numbers for each, "
-            f"[({', '.join(names)}), ...]"
-        )
-    return tuple([several("an oscillator", row) for row in rows])
-
-
-def coefficients_of(
-    rows: tuple[tuple[Any, ...], ...], names: tuple[str, ...], domains: tuple[Domain, ...]
-) -> list[Coefficient]:
-    """Return the coefficients of oscillators one after another, each with its name and domain."""
-    return [
-        (f"oscillators[{place}] {name}", value, domain)
-        for place, row in enumerate(rows)
-        for name, value, domain in zip(names, row, domains, strict=True)
-    ]
-
-
-@dataclass(frozen=True, eq=False)
-class DrudeRotation(Curve):
-    """A constant and the sum of A / (w^2 - C), w in um, times a unit; NaN at a resonance."""
-
-    label: str
-    strengths: tuple[float, ...]
-    poles: tuple[float, ...]
-    constant: float = 0.0
-    unit: str = "rad/m"
-    span: tuple[float, float] = EVERYWHERE
-
-    def __post_init__(self) -> None:
-        faults = [
-            f"{self.label} has the coefficient {shown(one)}; give finite real numbers"
-            for one in (*self.strengths, *self.poles, self.constant)
-            if real_number(one) is None
-        ]
-        if len(self.strengths) != len(self.poles):
-            faults.append(
-                f"{self.label} has {len(self.strengths)} strengths and {len(self.poles)} poles; "
-                f"give one of each for each resonance"
+    def __init__(self, label: str, span: Any, oscillators: Any, **others: Any) -> None:
+        rows = oscillators
+        if not hasattr(rows, "__iter__") or not all(hasattr(row, "__len__") for row in rows):
+            rows = [()]
+        if any(len(row) != len(self.each) for row in rows):
+            raise ValueFault(
+                f"oscillators of {label}: give a row of {len(self.each)} numbers for each, "
+                f"[({', '.join(self.each)}), ...]"
             )
-        if faults:
-            raise ValueFault(*faults)
-        vars(self).update(
-            strengths=tuple(map(float, self.strengths)),
-            poles=tuple(map(float, self.poles)),
-            constant=float(self.constant),
-            span=read_span(f"span of {self.label}", self.span),
-            _size=parse_quantity(f"1 {self.unit}", dimension_of(self.unit)),
-        )
+        rows = tuple([several("an oscillator", row) for row in rows])
+        super().__init__(label, span, oscillators=rows, **others)
 
-    @property
-    def content(self) -> tuple[Hashable, ...]:
-        return self.label, self.unit, self.strengths, self.poles, self.constant, self.span
+    def arguments(self) -> list[Coefficient]:
+        return [
+            ("background", self.background, REAL),
+            *[
+                (f"oscillators[{place}] {name}", value, domain)
+                for place, row in enumerate(self.oscillators)
+                for value, (name, domain) in zip(row, self.each.items(), strict=True)
+            ],
+        ]
+
+    def rows_of(self, numbers: Sequence[Any]) -> list[Sequence[Any]]:
+        """Return the numbers of each oscillator, of those behind all others."""
+        count = len(self.each)
+        behind = numbers[len(numbers) - count * len(self.oscillators) :]
+        return [behind[at : at + count] for at in range(0, len(behind), count)]
+
+
+class DrudeLorentz(Oscillators):
+    """Electrons that are free, and bound ones.
+
+    >>> from optipath.values.curve_value import curve_values
+    >>> n, k = curve_values(DrudeLorentz("a metal", 9.0, 0.02), 1e-6)
+    >>> round(float(n), 4), round(float(k), 4)
+    (0.0591, 7.1891)
+    """
+
+    each = {"strength": NOT_NEGATIVE, "energy": NOT_NEGATIVE, "damping": POSITIVE}  # noqa: RUF012
+    plasma: Any
+    damping: Any
+    strength: Any
+
+    def __init__(
+        self,
+        label: str,
+        plasma: Any,
+        damping: Any,
+        strength: Any = 1.0,
+        oscillators: Any = (),
+        background: Any = 1.0,
+        span: Any = EVERYWHERE,
+    ) -> None:
+        free = {"plasma": plasma, "damping": damping, "strength": strength}
+        super().__init__(label, span, oscillators, **free, background=background)
+
+    def arguments(self) -> list[Coefficient]:
+        background, *bound = super().arguments()
+        free = [(name, getattr(self, name), NOT_NEGATIVE) for name in _FREE]
+        return [background, *free, *bound]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        del arguments
-        square = (wavelength * MICROMETRES) ** 2
-        total = self.constant + 0.0 * square
-        for strength, pole in zip(self.strengths, self.poles, strict=True):
-            away = square - pole
-            at_resonance = away == 0.0
-            term = strength / xp.where(at_resonance, 1.0, away)
-            total = total + xp.where(at_resonance, xp.nan, term)
-        return (vars(self)["_size"] * total,)
+        background, plasma, strength, damping, *_ = arguments
+        bound, free = self.rows_of(arguments), (strength, damping)
+        result = drude_lorentz_permittivity(HC / wavelength, background, plasma, free, bound)
+        return index_of_permittivity(xp, *result)
+
+
+_FREE = ("plasma", "strength", "damping")
+
+
+class TaucLorentz(Oscillators):
+    """Oscillators above a gap, of amorphous films.
+
+    >>> from optipath.values.curve_value import curve_values
+    >>> silicon = TaucLorentz("silicon", [(122.0, 3.45, 2.54, 1.2)], background=1.15)
+    >>> n, k = curve_values(silicon, 500e-9)
+    >>> round(float(n), 4), round(float(k), 4)
+    (4.4573, 1.0883)
+    """
+
+    each = {  # noqa: RUF012
+        "amplitude": NOT_NEGATIVE,
+        "energy": POSITIVE,
+        "broadening": POSITIVE,
+        "gap": NOT_NEGATIVE,
+    }
+
+    def __init__(
+        self, label: str, oscillators: Any, background: Any = 1.0, span: Any = EVERYWHERE
+    ) -> None:
+        super().__init__(label, span, oscillators, background=background)
+        if not self.oscillators:
+            raise ValueFault(
+                f"{label} has no oscillators; give one or more, or n as a number for what is the "
+                f"same at all wavelengths"
+            )
+        limits = self._limits([value for _, value, _ in self.arguments()])
+        if faults := first_faults([law for law in limits if not law.is_open]):
+            raise ValueFault(*faults)
+
+    def misfits(self, arguments: Sequence[Any], given: Mapping[str, Resolved]) -> list[str]:
+        return first_faults(self._limits(arguments), given)
+
+    def _limits(self, arguments: Sequence[Any]) -> list[BroadeningLimit]:
+        return [
+            BroadeningLimit(
+                (Operand(energy), Operand(broadening)), f"oscillators[{place}] of {self.label}"
+            )
+            for place, (_, energy, broadening, _) in enumerate(self.rows_of(arguments))
+        ]
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        real, energy = arguments[0], HC / wavelength
+        imaginary = 0.0 * energy
+        for row in self.rows_of(arguments):
+            more, absorbed = tauc_lorentz_permittivity(xp, energy, *row)
+            real, imaginary = real + more, imaginary + absorbed
+        return index_of_permittivity(xp, real, imaginary)
 
 
 @dataclass(frozen=True, eq=False)
-class BirefringenceCurve(Curve):
-    """n_e - n_o, by the differences of the coefficients of two formulas of as many terms.
+class BroadeningLimit(Agreement):
+    """C < 2 E0 of energy and broadening, so that alpha of Jellison and Modine (1996) is real."""
 
-    Subtracted indices would lose digits. With a and b for the extraordinary and the ordinary ray,
-    each pair of terms differs by w^2 ((B_a - B_b) (w^2 - C_b) + B_b (C_a - C_b)) / ((w^2 - C_a)
-    (w^2 - C_b)), and the squares of the indices by the sum of these.
-    """
+    owner: str
 
-    label: str
-    extraordinary: Sellmeier
-    ordinary: Sellmeier
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        del xp
+        energy, broadening = numbers
+        return ~(broadening >= 2.0 * energy)
 
-    @property
-    def span(self) -> tuple[float, float]:  # type: ignore[override]
-        """The wavelengths at which both are known."""
-        rays = self.extraordinary.span, self.ordinary.span
-        return max(low for low, _ in rays), min(high for _, high in rays)
-
-    @property
-    def content(self) -> tuple[Hashable, ...]:
-        return self.label, self.extraordinary.digest, self.ordinary.digest
-
-    def arguments(self) -> list[tuple[str, Any, Domain]]:
-        """Return the coefficients of the one, and then of the other."""
-        return [*self.extraordinary.arguments(), *self.ordinary.arguments()]
-
-    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        half = len(self.extraordinary.arguments())
-        one, b, c = self.extraordinary.terms(arguments[:half])
-        other, b0, c0 = self.ordinary.terms(arguments[half:])
-        micrometres = wavelength * MICROMETRES
-        square = micrometres * micrometres
-        total = one - other + 0.0 * square
-        for *strengths, pole, pole0 in zip(b, b0, c, c0, strict=True):
-            ahead, ahead0 = square - pole, square - pole0
-            at_resonance = (ahead == 0.0) | (ahead0 == 0.0)
-            over = (strengths[0] - strengths[1]) * ahead0 + strengths[1] * (pole - pole0)
-            term = square * over / xp.where(at_resonance, 1.0, ahead * ahead0)
-            total = total + xp.where(at_resonance, xp.nan, term)
-        indices = [
-            index_of_square(xp, sellmeier_square(xp, micrometres, *terms))
-            for terms in ((one, b, c), (other, b0, c0))
-        ]
-        return (total / (indices[0] + indices[1]),)
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying
+        energy, broadening = [text_of(*each) for each in zip(self.operands, numbers, strict=True)]
+        return (
+            f"{self.owner} has the broadening {broadening} and the energy {energy}; the formula "
+            f"holds for a broadening below twice the energy, which is {2.0 * numbers[0]:.12g}"
+        )
 
 
+@dataclass(frozen=True, eq=False)
 class DispersionFormula(Curve):
-    """The index of refraction by a formula in micrometres, within its known span in metres.
+    """The index of refraction by a formula of refractiveindex.info. Units: known_span in metres.
 
-    >>> silica = [0, 0.6961663, 0.0684043, 0.4079426, 0.1162414, 0.8974794, 9.896161]
+    >>> silica = (0, 0.6961663, 0.0684043, 0.4079426, 0.1162414, 0.8974794, 9.896161)
     >>> n = DispersionFormula("silica", 1, silica, (0.21e-6, 6.7e-6)).evaluated(589.3e-9)[0]
     >>> round(float(n), 5)
     1.4584
@@ -348,36 +375,25 @@ class DispersionFormula(Curve):
 
     parts = ("n",)
     unreal = "the formula has n^2 below 0, or a resonance"
+    label: str
     formula: int
     coefficients: tuple[float, ...]
     known_span: tuple[float, float]
-    extrapolate: str
+    extrapolate: str = ""
 
-    def __init__(
-        self,
-        label: str,
-        formula: int,
-        coefficients: Sequence[float],
-        known_span: tuple[float, float],
-        *,
-        extrapolate: str = "",
-    ) -> None:
-        if formula not in DATABASE_FORMULAS:
+    def __post_init__(self) -> None:
+        if self.formula not in DATABASE_FORMULAS:
             numbers = listed([str(number) for number in DATABASE_FORMULAS])
-            raise ValueFault(f"{label} is by formula {formula}; there are the formulas {numbers}")
-        if not coefficients_fit(formula, len(coefficients)):
             raise ValueFault(
-                f"{label} has {len(coefficients)} coefficients, which formula {formula} cannot have"
+                f"{self.label} is by formula {self.formula}; there are the formulas {numbers}"
             )
-        vars(self).update(
-            label=label,
-            formula=formula,
-            coefficients=tuple(coefficients),
-            known_span=known_span,
-            extrapolate=extrapolate,
-            span=(0.0, float("inf")) if extrapolate else known_span,
-            beyond=NEAREST_REQUESTED,
-        )
+        if not coefficients_fit(self.formula, len(self.coefficients)):
+            raise ValueFault(
+                f"{self.label} has {len(self.coefficients)} coefficients, which formula "
+                f"{self.formula} cannot have"
+            )
+        span = EVERYWHERE if self.extrapolate else self.known_span
+        vars(self).update(span=span, beyond=NEAREST_REQUESTED)
 
     @property
     def content(self) -> tuple[Hashable, ...]:
@@ -386,7 +402,7 @@ class DispersionFormula(Curve):
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments
         inside = xp.clip(wavelength, *self.known_span) if self.extrapolate else wavelength
-        result = DATABASE_FORMULAS[self.formula](xp, inside * 1e6, self.coefficients)
+        result = DATABASE_FORMULAS[self.formula](xp, inside * MICROMETRES, self.coefficients)
         return (xp.broadcast_to(result, xp.shape(wavelength)),)
 
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
-from optipath.materials.material import LEAST, K, Material, index_of
+from optipath.materials.material import LEAST, K, Material, RealPart, index_of
 from optipath.values.arrays import first_place, read_only
 from optipath.values.domains import Domain, in_unit_of, is_real
 from optipath.values.jax_values import namespace
@@ -82,7 +82,6 @@ class NoAbsorption(Domain):
     why: str = ""
 
     def described(self) -> str:
-        """Say in words that it is 0, and how to have it."""
         return f"0{self.why}: take the medium without its k"
 
 
@@ -113,20 +112,31 @@ class _IndexOrMaterial(Domain):
         return super().check(owner, _as_number(value))
 
 
+@dataclass(frozen=True)
 class IndexDomain(_IndexOrMaterial):
-    """Complex numbers n + ik with n and k not negative."""
+    """Complex numbers n + ik: n of `least` or more, k not negative, and both not above `most`."""
 
     complex_parts = ("n", "k")
 
+    least: float = 0.0
+    most: float = math.inf
+    limits: str = "n and k not negative"
+    of_parts: tuple[Domain, Domain] | None = None  # What n and k of a material may be.
+
     @property
     def interval(self) -> tuple[float, float]:
-        """The limits of n and of k."""
-        return 0.0, math.inf
+        """The limits of n."""
+        return self.least, self.most
+
+    def domains_of(self, material: Material) -> tuple[Domain, Domain]:
+        return self.of_parts or super().domains_of(material)
 
     def quickly_allows(self, value: Any) -> bool:
-        if type(value) is complex:
-            return value != 0.0 <= value.real < math.inf and 0.0 <= value.imag < math.inf
-        return type(value) is float and 0.0 < value < math.inf
+        if type(value) is not float and type(value) is not complex:
+            return False
+        n, k = value.real, value.imag
+        inside = value != 0.0 and self.least <= n <= self.most and 0.0 <= k <= self.most
+        return inside and n < math.inf and k < math.inf
 
     def read(self, owner: str, value: Any) -> Any:
         if isinstance(value, (list, tuple)) and len(value) == 2 and all(map(is_real, value)):
@@ -139,11 +149,13 @@ class IndexDomain(_IndexOrMaterial):
         return super().read(owner, value)
 
     def described(self) -> str:
-        return "an index of refraction n + ik with n and k not negative"
+        return f"an index of refraction n + ik with {self.limits}"
 
     def allows(self, numbers: Any) -> Any:
+        least, most = held(numbers, (self.least, self.most))
+        n, k = numbers.real, numbers.imag
         there = namespace(numbers).isfinite(numbers) & (numbers != 0.0)
-        return there & (numbers.real >= 0.0) & (numbers.imag >= 0.0)
+        return there & (n >= least) & (n <= most) & (k >= 0.0) & (k <= most)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         del rounding
@@ -177,45 +189,21 @@ class OutsideDomain(_IndexOrMaterial):
         return f"a real index of refraction {which}{self.why}"
 
 
-class LitIndexDomain(IndexDomain):
-    """Complex numbers n + ik with n above 0: a medium that light comes from may absorb."""
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """The limits of n."""
-        return LEAST, math.inf
-
-    def domains_of(self, material: Material) -> tuple[Domain, Domain]:
-        del material
-        return OUTSIDE, K
-
-    def quickly_allows(self, value: Any) -> bool:
-        return super().quickly_allows(value) and value.real >= LEAST
-
-    def described(self) -> str:
-        return (
-            "an index of refraction n + ik with n above 0 and k not negative, since light comes "
-            "from there"
-        )
-
-    def allows(self, numbers: Any) -> Any:
-        least, _ = held(numbers, (LEAST, math.inf))
-        return super().allows(numbers) & (numbers.real >= least)
-
-
-class FollowedLitIndex(Followed, LitIndexDomain):
-    """The same, or that of the boundary before."""
+class FollowedIndex(Followed, IndexDomain):
+    """An index, or that of the boundary before."""
 
 
 class FollowedOutside(Followed, OutsideDomain):
-    """The same, or that of the boundary before."""
+    """The same of media that do not absorb."""
 
 
 class LitBehind(OutsideDomain):
-    """Indices of a medium behind a boundary from which light comes as well."""
+    """Indices of a medium behind a boundary from which light comes as well.
+
+    Of complex numbers those without an imaginary part will do.
+    """
 
     def allows(self, numbers: Any) -> Any:
-        # A complex number without an imaginary part will do.
         return super().allows(numbers.real) & (numbers.imag == 0.0)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
@@ -229,18 +217,23 @@ def _as_number(index: Any) -> Any:
 
 INDEX = IndexDomain("index of refraction")
 OUTSIDE = OutsideDomain("index of refraction")
-LIT_INDEX = LitIndexDomain("index of refraction")
-FOLLOWED_LIT_INDEX = FollowedLitIndex("index of refraction")
-OPTIONAL_LIT_INDEX = LitIndexDomain("index of refraction", optional=True)
-FOLLOWED_OUTSIDE = FollowedOutside("index of refraction")
-OPTIONAL_OUTSIDE = OutsideDomain("index of refraction", optional=True)
+OPTIONAL_OUTSIDE = replace(OUTSIDE, optional=True)
+FOLLOWED_OUTSIDE = FollowedOutside(**vars(OUTSIDE))
+LIT_INDEX = replace(
+    INDEX,
+    least=LEAST,
+    limits="n above 0 and k not negative, since light comes from there",
+    of_parts=(OUTSIDE, K),
+)
+"""Of a medium that light comes from, and that may absorb."""
+OPTIONAL_LIT_INDEX = replace(LIT_INDEX, optional=True)
+FOLLOWED_LIT_INDEX = FollowedIndex(**vars(LIT_INDEX))
 LIT_BEHIND = LitBehind(
     "index of refraction",
     why=", since light comes from there too (by port 'back'), and let a Medium absorb between",
 )
 CLEAR = OutsideDomain(
-    "index of refraction",
-    why=", since light goes on in there, and let a Medium absorb on the way",
+    "index of refraction", why=", since light goes on in there, and let a Medium absorb on the way"
 )
 
 
@@ -255,16 +248,24 @@ def inner_domain(missing: str) -> OutsideDomain:
 
 
 INNER = inner_domain("the lengths (one for each layer) and the wavelength")
+LOSSY = IndexDomain(
+    "index of refraction",
+    least=INNER.minimum,
+    most=INNER.maximum,
+    limits=f"n within {INNER.minimum:g} .. {INNER.maximum:g} and k within 0 .. {INNER.maximum:g}",
+    of_parts=(
+        RealPart("index of refraction", minimum=INNER.minimum, maximum=INNER.maximum),
+        Domain("extinction coefficient", minimum=0.0, maximum=INNER.maximum),
+    ),
+)
+"""Of the layers of a stack whose lengths are known."""
 
 
 @dataclass(frozen=True)
 class RowDomain(Domain):
     """Numbers of the parts of a stack, each of which may be an array or a parameter of its own."""
 
-    @property
-    def of_entries(self) -> Domain:
-        """What an entry may be."""
-        raise NotImplementedError
+    of_entries: ClassVar[Domain]
 
     def quickly_allows(self, value: Any) -> bool:
         del value
@@ -276,7 +277,6 @@ class RowDomain(Domain):
         return [self.of_entries.read(f"{owner}[{at}]", entry) for at, entry in enumerate(value)]
 
     def kept(self, value: Any) -> Any:
-        """Return the entries one by one, since each may be an array of its own."""
         if not _is_row(value) or len(value) > MOST_MEDIA:
             return value
         return tuple([self.entry_kept(read_only(entry)) for entry in value])
@@ -286,15 +286,14 @@ class RowDomain(Domain):
         return in_unit_of(entry, self.of_entries)
 
     def check(self, owner: str, value: Any) -> Any:
-        # Good lists are checked by their parts.
+        """Refuse what is no list; those are checked by their parts."""
         if _is_row(value) and len(value) > MOST_MEDIA:
             raise ValueFault(f"{owner} has {len(value):,} entries; give {MOST_MEDIA:,} at most")
         raise ValueFault(f"{owner} is {shown(value)}; give {self.described()}")
 
     def check_parameter(self, owner: str, parameter: Any) -> None:
-        raise ValueFault(
-            f"{owner} cannot be the parameter '{parameter.name}'; give a list, of parameters too"
-        )
+        name = parameter.name
+        raise ValueFault(f"{owner} cannot be the parameter '{name}'; give a list of parameters")
 
 
 def _is_row(value: Any) -> bool:
@@ -305,22 +304,16 @@ def _is_row(value: Any) -> bool:
 class IndicesDomain(RowDomain):
     """Indices of the media of a stack, the front medium first and the substrate last."""
 
+    of_entries = INDEX
     inner: Domain | None = None
-
-    @property
-    def of_entries(self) -> Domain:
-        return INDEX
 
     def read(self, owner: str, value: Any) -> Any:
         if isinstance(value, (list, tuple)) and any(index is FOLLOWS for index in value[1:]):
-            raise ValueFault(
-                f"an index of {owner} behind the first cannot be FOLLOWS; only {owner}[0], the "
-                f"medium in front, can be taken over"
-            )
+            raise ValueFault(f"only {owner}[0], the medium in front, can be FOLLOWS")
         return super().read(owner, value)
 
     def entry_kept(self, entry: Any) -> Any:
-        """Return an index that came out of an array with others as the real one that it is."""
+        # Out of an array with complex ones, a real index is one again.
         return entry.real if isinstance(entry, complex) and entry.imag == 0.0 else entry
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
@@ -334,10 +327,7 @@ class IndicesDomain(RowDomain):
         ]
 
     def described(self) -> str:
-        return (
-            "a list of two indices or more, the medium in front first and the substrate last, such "
-            "as [1, 1.5, 1.33]"
-        )
+        return "a list of two indices or more, such as [1, 1.5, 1.33] from front to substrate"
 
 
 INDICES = IndicesDomain("indices of refraction")
@@ -351,11 +341,8 @@ LENGTH_OF_LAYER = Domain("length", "length", minimum=0.0, maximum=1e100, own_uni
 class LengthsDomain(RowDomain):
     """Lengths of the layers of a stack, one for each, or none at all."""
 
+    of_entries = LENGTH_OF_LAYER
     layers: int | None = None
-
-    @property
-    def of_entries(self) -> Domain:
-        return LENGTH_OF_LAYER
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if value is None:
@@ -369,35 +356,4 @@ class LengthsDomain(RowDomain):
         return f"a list of lengths, one for each layer between the first medium and the last{count}"
 
 
-class LossyDomain(IndexDomain):
-    """Indices n + ik of the layers of a stack whose lengths are known."""
-
-    def domains_of(self, material: Material) -> tuple[Domain, Domain]:
-        del material
-        return _N, _K
-
-    def quickly_allows(self, value: Any) -> bool:
-        return type(value) is float and INNER.minimum <= value <= INNER.maximum
-
-    def described(self) -> str:
-        return (
-            f"an index of refraction n + ik with n within {INNER.minimum:g} .. {INNER.maximum:g} "
-            f"and k within 0 .. {INNER.maximum:g}"
-        )
-
-    def allows(self, numbers: Any) -> Any:
-        least, most = held(numbers, (INNER.minimum, INNER.maximum))
-        inside = (numbers.real >= least) & (numbers.real <= most)
-        return super().allows(numbers) & inside & (numbers.imag <= most)
-
-
-class _RealIndex(Domain):
-    """The real part of an index."""
-
-    takes_materials = True
-
-
-_N = _RealIndex("index of refraction", minimum=INNER.minimum, maximum=INNER.maximum)
-_K = Domain("extinction coefficient", minimum=0.0, maximum=INNER.maximum)
-LOSSY = LossyDomain("index of refraction")
 LENGTHS = LengthsDomain("lengths of layers", "length", own_unit="mm")

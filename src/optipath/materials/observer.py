@@ -38,7 +38,7 @@ class Observer:
         place = wavelengths - self.wavelengths[0]
         first = np.clip(np.floor(place).astype(int) - 1, 0, len(self.wavelengths) - 4)
         t = (place - first)[:, np.newaxis]
-        a, b, c, d = (self.functions[first + i] for i in range(4))
+        a, b, c, d = [self.functions[first + i] for i in range(4)]
         outer = a * (1.0 - t) * (2.0 - t) * (3.0 - t) + d * t * (t - 1.0) * (t - 2.0)
         inner = b * t * (2.0 - t) * (3.0 - t) + c * t * (t - 1.0) * (3.0 - t)
         results: Array = np.maximum(outer / 6.0 + 0.5 * inner, 0.0)

@@ -52,21 +52,16 @@ def spectrum_meant(text: str) -> Fault | None:
     >>> print(spectrum_meant("D65"))
     'D65' is no spectrum by itself; write op.Spectrum.illuminant("D65")
     """
-    name = closest(text.strip(), ILLUMINANTS) or text.strip().upper()
-    if name in ILLUMINANTS:
-        ways = f'op.Spectrum.illuminant("{name}")', f'{{ illuminant = "{name}" }}'
-    elif _is_wavelength(text):
-        ways = f'op.Spectrum.line("{text.strip()}")', f'{{ line = "{text.strip()}" }}'
-    else:
-        return None
+    kind, name = "illuminant", closest(text.strip(), ILLUMINANTS) or text.strip().upper()
+    if name not in ILLUMINANTS:
+        kind, name = "line", text.strip()
+        try:
+            if not VACUUM_WAVELENGTH.parse(name) > 0.0:
+                return None
+        except OptipathError:
+            return None
+    ways = f'op.Spectrum.{kind}("{name}")', f'{{ {kind} = "{name}" }}'
     return Fault(f"{shown(text)} is no spectrum by itself", Cure.of("write {}".format, *ways))
-
-
-def _is_wavelength(text: str) -> bool:
-    try:
-        return bool(VACUUM_WAVELENGTH.parse(text) > 0.0)
-    except OptipathError:
-        return False
 
 
 class SpectralDomain(Domain):
@@ -77,7 +72,6 @@ class SpectralDomain(Domain):
     """
 
     def kept(self, value: Any) -> Any:
-        """Return what stands for a spectrum, at the parameter ``wavelength``."""
         if isinstance(value, Curve) and len(value.parts) == 1:
             return curve_values(value, WavelengthParameter())[0]
         return super().kept(value)
@@ -117,10 +111,7 @@ Axis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle")]
 OptionalAxis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle", optional=True)]
 INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
 Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
-FollowedIncidence: TypeAlias = Annotated[
-    Quantity | Follows,
-    Followed(INCIDENCE.name, INCIDENCE.dimension, INCIDENCE.minimum, INCIDENCE.maximum),
-]
+FollowedIncidence: TypeAlias = Annotated[Quantity | Follows, Followed(**vars(INCIDENCE))]
 Fraction: TypeAlias = Annotated[Quantity, FractionDomain("fraction", minimum=0.0, maximum=1.0)]
 NON_NEGATIVE = Domain("number", minimum=0.0)
 NonNegative: TypeAlias = Annotated[Quantity, NON_NEGATIVE]

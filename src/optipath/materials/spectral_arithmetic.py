@@ -7,29 +7,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, unknown
+from optipath.errors import ValueFault
 from optipath.materials.illuminants import NANOMETRES
 from optipath.materials.spectrum_kinds import (
-    PLACES,
+    EVERYWHERE,
     EvenSpectrum,
     GaussianLine,
     Histogram,
     Lines,
     Sampled,
     SumOfKinds,
-    called,
-    check_known_at,
-    edges_of,
-    several,
-    single,
     values_at,
 )
 from optipath.values.curve import is_within
 from optipath.values.units import displayed
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from optipath.materials.spectrum_kinds import SpectrumKind
 
     Array = np.ndarray[Any, Any]
@@ -100,7 +93,7 @@ def _sampled(
     return Sampled(places, values, beyond, label)
 
 
-def _total(terms: Sequence[SpectrumKind]) -> SpectrumKind:
+def _total(terms: list[SpectrumKind]) -> SpectrumKind:
     return terms[0] if len(terms) == 1 else SumOfKinds(terms)
 
 
@@ -122,6 +115,8 @@ def _joined(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind | None:
 def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
     """Return the wavelengths at which two spectra can be multiplied or divided."""
     both = f"{first.label} and {second.label}"
+    sampled = [kind for kind in (first, second) if isinstance(kind, Sampled)]
+    columns = [kind.wavelengths for kind in sampled]
     for kind in (*first.terms, *second.terms):
         if not kind.is_pointwise:
             raise ValueFault(
@@ -129,19 +124,14 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
                 f"in bins or at single wavelengths; make samples of it, spectrum.rebin(edges) and "
                 f"then {_RESAMPLE}"
             )
-    sampled = [kind for kind in (first, second) if isinstance(kind, Sampled)]
+        if isinstance(kind, GaussianLine) and sampled and _is_missed(kind, sampled[0]):
+            columns.append(kind.peak + kind.width * _AROUND)
     if not sampled:
         raise ValueFault(
             f"{both} have no samples at which they could be {done}; resample one of them, "
             f"{_RESAMPLE}"
         )
-    narrow = [kind for kind in (*first.terms, *second.terms) if isinstance(kind, GaussianLine)]
-    places = np.unique(
-        np.concatenate(
-            [kind.wavelengths for kind in sampled]
-            + [kind.peak + kind.width * _AROUND for kind in narrow if _is_missed(kind, sampled[0])]
-        )
-    )
+    places = np.unique(np.concatenate(columns))
     places = places[np.diff(places, prepend=0.0) > _ROUNDING * places]
     for kind in sampled:
         places = places[is_within(places, kind.extent)]
@@ -152,10 +142,9 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
 
 def _is_missed(line: GaussianLine, sampled: Sampled) -> bool:
     """Return whether straight lines between samples would not keep the power of a diode."""
-    places = sampled.wavelengths[np.abs(sampled.wavelengths - line.peak) < 2.0 * line.width]
-    steps = np.diff(
-        places, prepend=line.peak - 2.0 * line.width, append=line.peak + 2.0 * line.width
-    )
+    reach = 2.0 * line.width
+    places = sampled.wavelengths[np.abs(sampled.wavelengths - line.peak) < reach]
+    steps = np.diff(places, prepend=line.peak - reach, append=line.peak + reach)
     return bool(np.max(steps) > 0.5 * line.width)
 
 
@@ -178,9 +167,8 @@ def powers_between(kind: SpectrumKind, edges: Array) -> Array:
 
 
 def smooth_powers(kind: SpectrumKind, edges: Array) -> Array:
-    """Return what `powers_between` does, lines aside. Shape: returns (n,)."""
-    breaks = kind.breaks
-    inner = breaks[(breaks > edges[0]) & (breaks < edges[-1])]
+    """Return what `powers_between` does, lines aside."""
+    inner = kind.breaks[(kind.breaks > edges[0]) & (kind.breaks < edges[-1])]
     ends = np.union1d(edges, inner)
     low, high = ends[:-1], ends[1:]
     whole = _by_gauss(kind, low, high)
@@ -208,89 +196,30 @@ def _by_gauss(kind: SpectrumKind, low: Array, high: Array) -> Array:
     return np.asarray(half * NANOMETRES * (density @ _WEIGHTS))
 
 
-def power_within(kind: SpectrumKind, low: Any = None, high: Any = None) -> float:
-    """Return the power of a spectrum between two wavelengths. Units: low, high in metres."""
-    if low is None and high is None and (whole := _whole(kind)) is not None:
-        return whole
-    least, most = kind.extent
-    start = least if low is None else single("low", low, PLACES)
-    end = most if high is None else single("high", high, PLACES)
-    if not 0.0 < start <= end < np.inf:
-        raise ValueFault(
-            f"power of {kind.label} from {displayed(start, 'nm')} to {displayed(end, 'nm')} is "
-            f"none, or does not end there; give two ends, the lower one first, as in "
-            f"spectrum.power('380 nm', '700 nm')"
-        )
-    ends = np.array([start, end])
-    check_known_at(kind, ends)
-    above = np.inf if high is None else end
-    of_lines = sum(line.power for line in kind.lines if start <= line.wavelength < above)
-    return of_lines + (float(smooth_powers(kind, ends)[0]) if start < end else 0.0)
+def smooth_power(kind: SpectrumKind, low: float, high: float) -> float:
+    """Return the power between two wavelengths in metres, lines aside; 0 where there are none."""
+    return float(smooth_powers(kind, np.array([low, high]))[0]) if low < high else 0.0
 
 
-def _whole(kind: SpectrumKind) -> float | None:
+def whole_power(kind: SpectrumKind) -> float | None:
     """Return the power at all wavelengths; None where a term has no end and no integral."""
-    if kind.span != (0.0, np.inf):
-        return None
-    powers = [_power_of(term) for term in kind.terms]
-    return None if None in powers else sum(powers)  # type: ignore[arg-type]
+    powers = []
+    for term in kind.terms:
+        if kind.span != EVERYWHERE or (term.integral is None and term.extent[1] == np.inf):
+            return None
+        of_lines = sum(line.power for line in term.lines)
+        smooth = smooth_power(term, *term.extent) if term.integral is None else term.integral
+        powers.append(smooth + of_lines)
+    return sum(powers)
 
 
-def _power_of(term: SpectrumKind) -> float | None:
-    """Return the power of a spectrum of one kind at all wavelengths together."""
-    if term.integral is not None:
-        return term.integral
-    low, high = term.extent
-    if not high < np.inf:
-        return None
-    smooth = float(smooth_powers(term, np.array([low, high]))[0]) if low < high else 0.0
-    return smooth + sum(line.power for line in term.lines)
-
-
-_LOST = 1e-14
-"""The share of the power below which none is said to be lost."""
-
-
-def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
-    """Return the samples of a spectrum at wavelengths."""
-    if kind.lines:
-        raise ValueFault(
-            f"{called(kind.lines)} has no value at a wavelength, so that it cannot be resampled; "
-            f"keep its power in bins, spectrum.rebin(edges)"
-        )
-    places = several("wavelengths", wavelengths, PLACES)
-    return Sampled(places, values_at(kind, places), outside, kind.label)
-
-
-def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
-    """Return the power of a spectrum in bins. Shape: edges (n + 1,). Units: edges in metres."""
-    if faults := unknown("outside", outside, ("refuse", "drop")):
-        raise ValueFault(*faults)
-    ends = np.sort(edges_of("edges", edges))
-    check_known_at(kind, ends[[0, -1]])
-    powers = powers_between(kind, ends)
-    if outside == "refuse":
-        missing = _power_beyond(kind, ends)
-        if missing > _LOST * (missing + float(powers.sum())):
-            raise ValueFault(
-                f"{kind.label} has a power of {missing:.6g} beyond the bins, which reach from "
-                f"{displayed(float(ends[0]), 'nm')} to {displayed(float(ends[-1]), 'nm')}; give "
-                f"edges around all of it, or outside='drop' to leave that out"
-            )
-    low, high = kind.extent
-    whole = ends[0] <= low and high <= ends[-1] and kind.span[1] == np.inf
-    return Histogram(ends, powers, 0.0 if whole else None, kind.label)
-
-
-def _power_beyond(kind: SpectrumKind, ends: np.ndarray[Any, Any]) -> float:
-    """Return the power beyond the ends of bins, of what of a spectrum ends somewhere."""
+def power_beyond(kind: SpectrumKind, low: float, high: float) -> float:
+    """Return the power beyond two wavelengths in metres, of what of a spectrum ends somewhere."""
     missing = 0.0
     for term in kind.terms:
-        low, high = term.extent
-        if high < np.inf:
-            sides = [(low, min(high, ends[0])), (max(low, ends[-1]), high)]
-            rising = [np.array(side) for side in sides if side[0] < side[1]]
-            missing += sum(float(smooth_powers(term, side)[0]) for side in rising)
-            places = [line for line in term.lines if not ends[0] <= line.wavelength <= ends[-1]]
-            missing += sum(line.power for line in places)
+        first, last = term.extent
+        if last < np.inf:
+            below, above = (first, min(last, low)), (max(first, high), last)
+            missing += smooth_power(term, *below) + smooth_power(term, *above)
+            missing += sum(e.power for e in term.lines if not low <= e.wavelength <= high)
     return missing

@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from optipath.errors import ValueFault, listed, shown
+from optipath.errors import ValueFault, listed, shown, unknown
 from optipath.materials.quantities import NON_NEGATIVE
 from optipath.materials.spectral_arithmetic import (
-    power_within,
+    power_beyond,
+    powers_between,
     product_of,
     quotient_of,
-    rebinned,
-    resampled,
+    smooth_power,
     sum_of,
+    whole_power,
 )
 from optipath.materials.spectrum_kinds import (
     PLACES,
@@ -29,11 +30,14 @@ from optipath.materials.spectrum_kinds import (
     Lines,
     Sampled,
     SpectrumKind,
+    called,
     check_known_at,
     density_of_lines,
+    edges_of,
     several,
     single,
     value_outside,
+    values_at,
 )
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve
@@ -50,6 +54,8 @@ if TYPE_CHECKING:
     from typing import Self
 
 
+_LOST = 1e-14
+"""The share of the power below which none is said to be lost."""
 _ABOVE = Domain("number above 0", minimum=1e-300)
 _TEMPERATURE = Domain("temperature in kelvins", minimum=1e-3, maximum=1e9)
 _MAKERS = (
@@ -85,7 +91,7 @@ class Spectrum(Curve):
     Raises
     ------
     ValueFault
-        If it is made of anything but samples or a kind.
+        With all that is wrong; all that makes a spectrum raises it.
 
     Examples
     --------
@@ -136,11 +142,6 @@ class Spectrum(Curve):
         Returns
         -------
         Spectrum
-
-        Raises
-        ------
-        ValueFault
-            With all that is wrong with the samples.
         """
         return cls(wavelengths, () if values is None else values, outside=outside, name=name)
 
@@ -159,8 +160,8 @@ class Spectrum(Curve):
         Parameters
         ----------
         path : str or PathLike
-            A file of separated values, whose first line has names: ``wavelength (nm), power``, or
-            the unit stands behind each wavelength.
+            Its first line has names: ``wavelength (nm), power``, or the unit stands behind each
+            wavelength.
         column : str, optional
             The name of the column of values.
         unit : str, optional
@@ -171,11 +172,6 @@ class Spectrum(Curve):
         Returns
         -------
         Spectrum
-
-        Raises
-        ------
-        ValueFault
-            With all that is wrong, and the lines.
         """
         result = read_columns(path, [column], unit=unit)
         values = result.columns[column]
@@ -191,19 +187,12 @@ class Spectrum(Curve):
             In metres, or texts; rising or falling. An edge is of the bin above it.
         powers : array_like, shape (n,)
             The power in each bin; not negative.
-        outside : 0.0, optional
-            Where nothing is beyond the bins; without it, to ask there is an error.
-        name : str, optional
-            What sentences call it.
+        outside, name
+            As `sampled` takes them, but for ``"nearest"`` and ``"linear"``.
 
         Returns
         -------
         Spectrum
-
-        Raises
-        ------
-        ValueFault
-            If these are no bins.
         """
         return cls(Histogram(edges, powers, outside, label_of("a spectrum", name, "a histogram")))
 
@@ -227,14 +216,8 @@ class Spectrum(Curve):
         -------
         Spectrum
 
-        Raises
-        ------
-        ValueFault
-            If the wavelength or the power is none.
-
         Examples
         --------
-        >>> from optipath import Spectrum
         >>> Spectrum.line("500 nm").at(["400 nm", "500 nm", "600 nm"])
         array([0.  , 0.01, 0.  ])
         """
@@ -258,11 +241,6 @@ class Spectrum(Curve):
         Returns
         -------
         Spectrum
-
-        Raises
-        ------
-        ValueFault
-            If one of them is none.
         """
         place = single("peak of a diode", peak, PLACES)
         widths = WidthAtPeak("width", "length", minimum=5e-324, maximum=LONGEST, peak=place)
@@ -278,18 +256,8 @@ class Spectrum(Curve):
         temperature : float
             In kelvins.
 
-        Returns
-        -------
-        Spectrum
-
-        Raises
-        ------
-        ValueFault
-            If it is none.
-
         Examples
         --------
-        >>> from optipath import Spectrum
         >>> float(Spectrum.black_body(5772).at("502 nm").round(3))
         26239.591
         """
@@ -303,15 +271,6 @@ class Spectrum(Curve):
         ----------
         name : {"A", "D65", "E"}
             Incandescent light, daylight, or the same everywhere; 300 to 830 nm (CIE 15:2018).
-
-        Returns
-        -------
-        Spectrum
-
-        Raises
-        ------
-        ValueFault
-            If there is none of that name.
         """
         return cls(Illuminant(name))
 
@@ -323,15 +282,6 @@ class Spectrum(Curve):
         ----------
         value : float, optional
             Power per nanometre, or a relative value; not negative.
-
-        Returns
-        -------
-        Spectrum
-
-        Raises
-        ------
-        ValueFault
-            If it is none.
         """
         return cls(EvenSpectrum(single("value of a constant spectrum", value)))
 
@@ -347,22 +297,12 @@ class Spectrum(Curve):
         return (result,)
 
     def at(self, wavelength: Any) -> Any:
-        """Return what it is at wavelengths, or what stands for it where these are a parameter.
+        """Return its power per nanometre, or what stands for it at a parameter.
 
         Parameters
         ----------
         wavelength : float, str, array_like or Parameter
-            In metres or as texts. A line needs all wavelengths of a grid at once.
-
-        Returns
-        -------
-        ndarray or CurveValue
-            Power per nanometre.
-
-        Raises
-        ------
-        OptipathError
-            If a wavelength is none, or beyond those for which the spectrum is known.
+            In metres or as texts, within the span. A line needs all of a grid at once.
         """
         if isinstance(wavelength, Parameter):
             return curve_values(self, wavelength)[0]
@@ -374,7 +314,7 @@ class Spectrum(Curve):
         return self.evaluated(places)[0]
 
     def power(self, low: Any = None, high: Any = None) -> float:
-        """Return the power between two wavelengths: the integral, and that of lines there.
+        """Return the power between two wavelengths to about 1e-14, lines included.
 
         Parameters
         ----------
@@ -387,12 +327,6 @@ class Spectrum(Curve):
         Returns
         -------
         float
-            To about 1e-14.
-
-        Raises
-        ------
-        ValueFault
-            If it is not known there, or does not end and no end is given.
 
         Examples
         --------
@@ -400,32 +334,46 @@ class Spectrum(Curve):
         >>> laser.power("400 nm", "500 nm"), laser.power("500 nm", "600 nm"), laser.power()
         (0.0, 2.0, 2.0)
         """
-        return power_within(self.kind, low, high)
+        if low is None and high is None and (whole := whole_power(self.kind)) is not None:
+            return whole
+        least, most = self.kind.extent
+        start = least if low is None else single("low", low, PLACES)
+        end = most if high is None else single("high", high, PLACES)
+        if not 0.0 < start <= end < np.inf:
+            raise ValueFault(
+                f"power of {self.label} from {displayed(start, 'nm')} to {displayed(end, 'nm')} is "
+                f"none, or does not end there; give two ends, the lower one first, as in "
+                f"spectrum.power('380 nm', '700 nm')"
+            )
+        check_known_at(self, np.array([start, end]))
+        above = np.inf if high is None else end
+        of_lines = sum(line.power for line in self.kind.lines if start <= line.wavelength < above)
+        return of_lines + smooth_power(self.kind, start, end)
 
     def resample(self, wavelengths: Any, *, outside: Any = None) -> Spectrum:
         """Return the sampled spectrum of the same values at other wavelengths.
 
-        Values are kept, and the power is that of straight lines between them; `rebin` keeps the
-        power.
+        The power is that of straight lines between them; `rebin` keeps the power. Lines have no
+        value at a wavelength.
 
         Parameters
         ----------
         wavelengths : array_like, shape (n,)
-            In metres or as texts.
+            In metres or as texts, within the span.
         outside : {0.0, "nearest", "linear"}, optional
-            What is beyond the new samples, as in `sampled`. Where this spectrum is not known it has
-            no value in any case, unless it was itself made with an ``outside``.
+            What is beyond the new samples, as in `sampled`.
 
         Returns
         -------
         Spectrum
-
-        Raises
-        ------
-        ValueFault
-            If it is not known there, or has lines, which have no value at a wavelength.
         """
-        return Spectrum(resampled(self.kind, wavelengths, outside))
+        if self.kind.lines:
+            raise ValueFault(
+                f"{called(self.kind.lines)} has no value at a wavelength, so that it cannot be "
+                f"resampled; keep its power in bins, spectrum.rebin(edges)"
+            )
+        places = several("wavelengths", wavelengths, PLACES)
+        return Spectrum(Sampled(places, values_at(self.kind, places), outside, self.label))
 
     def rebin(self, edges: Any, *, outside: str = "refuse") -> Spectrum:
         """Return the histogram of the same power in other bins.
@@ -436,7 +384,7 @@ class Spectrum(Curve):
         Parameters
         ----------
         edges : array_like, shape (n + 1,)
-            In metres or as texts.
+            In metres or as texts, within the span.
         outside : {"refuse", "drop"}, optional
             What becomes of power beyond the edges, of a spectrum that ends somewhere; one that
             does not is cut off.
@@ -444,13 +392,23 @@ class Spectrum(Curve):
         Returns
         -------
         Spectrum
-
-        Raises
-        ------
-        ValueFault
-            If the spectrum is not known in all bins, or power would be lost.
         """
-        return Spectrum(rebinned(self.kind, edges, outside))
+        if faults := unknown("outside", outside, ("refuse", "drop")):
+            raise ValueFault(*faults)
+        ends = np.sort(edges_of("edges", edges))
+        low, high = float(ends[0]), float(ends[-1])
+        check_known_at(self, np.array([low, high]))
+        powers = powers_between(self.kind, ends)
+        missing = power_beyond(self.kind, low, high) if outside == "refuse" else 0.0
+        if missing > _LOST * (missing + float(powers.sum())):
+            raise ValueFault(
+                f"{self.label} has a power of {missing:.6g} beyond the bins, which reach from "
+                f"{displayed(low, 'nm')} to {displayed(high, 'nm')}; give edges around all of it, "
+                f"or outside='drop' to leave that out"
+            )
+        least, most = self.kind.extent
+        whole = low <= least and most <= high and self.span[1] == np.inf
+        return Spectrum(Histogram(ends, powers, 0.0 if whole else None, self.label))
 
     @property
     def wavelengths(self) -> np.ndarray[Any, Any]:
@@ -550,20 +508,13 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
 
     Parameters
     ----------
-    low, high : float or str
-        The ends, in metres or as texts such as ``"380 nm"``.
-    step : float or str
-        In metres or as a text; the range is a whole number of steps.
+    low, high, step : float or str
+        In metres or as texts such as ``"380 nm"``; the range is a whole number of steps.
 
     Returns
     -------
     ndarray, shape (n,)
         In metres, rising.
-
-    Raises
-    ------
-    ValueFault
-        If these are no lengths, or the steps do not fit.
 
     Examples
     --------

@@ -43,14 +43,11 @@ class Tabulated(Curve):
         extrapolate: str = "",
         unit: str = "",
     ) -> None:
-        faults = [
-            *unknown("interpolation", interpolation, INTERPOLATIONS),
-            *unknown("extrapolate", extrapolate, EXTRAPOLATIONS),
-        ]
-        places = _samples(label, "wavelengths", wavelengths, faults)
-        values = [
-            _samples(label, part, column, faults)
-            for part, column in zip(parts, columns, strict=True)
+        faults = unknown("interpolation", interpolation, INTERPOLATIONS)
+        faults += unknown("extrapolate", extrapolate, EXTRAPOLATIONS)
+        places, *values = [
+            _samples(label, name, row, faults)
+            for name, row in zip(("wavelengths", *parts), (wavelengths, *columns), strict=True)
         ]
         if not faults:
             faults += filter(None, [_wavelength_fault(label, places)])
@@ -125,8 +122,8 @@ _SAMPLE = Domain("number")
 
 def _samples(label: str, name: str, raw_value: Any, faults: list[str]) -> np.ndarray[Any, Any]:
     """Return samples as a copy of their numbers, and tell what is wrong with them."""
-    owner, array = f"{name} of {label}", np.zeros(0)
-    domain = WAVELENGTH if name == "wavelengths" else _SAMPLE
+    owner, domain = f"{name} of {label}", WAVELENGTH if name == "wavelengths" else _SAMPLE
+    array = np.zeros(0)
     with collecting(faults):
         array = np.array(domain.check(owner, raw_value), np.float64)
         if array.ndim != 1 or not array.size:
@@ -142,8 +139,9 @@ def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
     if (steps > 0.0).all() or (steps < 0.0).all():
         return ""
     if np.any(same := steps == 0.0):
-        twice = float(places[:-1][same][0]) * 1e9
-        return f"{label} has the wavelength {twice:.10g} nm twice; give each once"
+        return (
+            f"{label} has the wavelength {places[:-1][same][0] * 1e9:.10g} nm twice; give each once"
+        )
     return (
         f"the wavelengths of {label} neither rise nor fall throughout; sort them, with all that "
         f"belongs to each"
@@ -205,7 +203,6 @@ def _at_end(step: Any, next_step: Any, chord: Any, next_chord: Any) -> float:
 class PageCurve(Curve):
     """Several curves as one, at the wavelengths at which all of them are known.
 
-    >>> from optipath.materials.tables import Tabulated
     >>> n = Tabulated("n", ("n",), [4e-7, 8e-7], [[1.5, 1.3]])
     >>> k = Tabulated("k", ("k",), [5e-7, 9e-7], [[0.0, 0.4]])
     >>> PageCurve("paint", [n, k]).span
@@ -239,29 +236,19 @@ class PageCurve(Curve):
             place=place,
             source=source,
             asked=dict(requests or {}),
-            span=(low, high),
-            beyond="name another page",
+            span=(max(low, within[0]), min(high, within[1])) if within else (low, high),
+            beyond="give k, or name another page" if within else "name another page",
         )
-        if within is not None:
-            clear = max(low, within[0]), min(high, within[1])
-            vars(self).update(span=clear, beyond="give k, or name another page")
 
     @property
     def content(self) -> tuple[Hashable, ...]:
         return (self.label, self.span, *[(type(one).__name__, one.content) for one in self.curves])
 
     def unreal_of(self, place: int) -> str:
-        curve, part = self._placed[place]
-        return curve.unreal_of(part)
+        return [c.unreal_of(at) for c in self.curves for at in range(len(c.parts))][place]
 
     def is_nowhere_0(self, place: int) -> bool:
-        curve, part = self._placed[place]
-        return curve.is_nowhere_0(part)
-
-    @property
-    def _placed(self) -> list[tuple[Curve, int]]:
-        """The curve that has each part, and which of its own that is."""
-        return [(curve, part) for curve in self.curves for part in range(len(curve.parts))]
+        return [c.is_nowhere_0(at) for c in self.curves for at in range(len(c.parts))][place]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments

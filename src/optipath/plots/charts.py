@@ -13,8 +13,7 @@ from matplotlib.transforms import Bbox
 
 from optipath.errors import OptipathError, shown
 from optipath.lab.bench import duration
-from optipath.lab.chart_file import CRITICAL, checked_chart, read_chart
-from optipath.lab.peer_times import peer_times
+from optipath.lab.chart_file import CRITICAL, checked_chart, peer_times, read_chart
 from optipath.plots.colors import DASHES, FAINT, INK, LINES
 from optipath.plots.labels import Label, place_labels
 from optipath.plots.text import broken, draw_key
@@ -28,7 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from optipath.lab.peer_times import PeerTimes
+    from optipath.lab.chart_file import PeerTimes
     from optipath.plots.axes import Panel
 
 

@@ -15,7 +15,14 @@ import numpy as np
 from optipath.elements.vertex_chain import VerticesByAngles, VerticesDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
 from optipath.materials.crystals import CRYSTALS, Crystal
-from optipath.materials.formulas import EVERYWHERE, REAL, Cauchy, Sellmeier
+from optipath.materials.formulas import (
+    EVERYWHERE,
+    REAL,
+    Cauchy,
+    DrudeLorentz,
+    Sellmeier,
+    TaucLorentz,
+)
 from optipath.materials.index_domains import (
     FOLLOWED_OUTSIDE,
     FOLLOWS,
@@ -28,7 +35,6 @@ from optipath.materials.index_domains import (
     OutsideDomain,
 )
 from optipath.materials.material import PARTS, K, Material
-from optipath.materials.oscillators import DrudeLorentz, TaucLorentz
 from optipath.materials.quantities import AMPLITUDE, ANGLE, SpectralDomain
 from optipath.materials.spectrum import Spectrum
 from optipath.materials.tables import PageCurve, Tabulated
