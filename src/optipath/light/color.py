@@ -10,8 +10,12 @@ import numpy as np
 from optipath.errors import ColourWarning, LightError, ValueFault, shown, unknown
 from optipath.light.integration import spectral_axis, weighted_sum
 from optipath.light.light import Light
-from optipath.materials.illuminants import NANOMETRES
-from optipath.materials.observer import LUMENS_PER_WATT, Observer, observer_called
+from optipath.materials.illuminants import (
+    LUMENS_PER_WATT,
+    NANOMETRES,
+    Observer,
+    observer_called,
+)
 from optipath.materials.spectrum import Spectrum
 from optipath.values.angles import calls_up
 from optipath.values.arrays import Unchanging, check_broadcast, locked, same

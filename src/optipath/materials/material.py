@@ -59,7 +59,7 @@ def _number(value: Any) -> Any:
     return array if array.dtype.kind in "biuf" else None
 
 
-def index_of(text: str, request: str = "") -> complex:
+def index_of(text: str) -> complex:
     """Return the number that a text stands for, which is no name of a material.
 
     >>> index_of("0.2+3.4j")
@@ -67,7 +67,7 @@ def index_of(text: str, request: str = "") -> complex:
     """
     if text.strip()[:1].isalpha():
         such = Cure.of("give n and k as numbers, such as {}".format, *_GOLD)
-        raise UnitError(Fault(f"'{text}' is no number", f"give {request}" if request else such))
+        raise UnitError(Fault(f"'{text}' is no number", such))
     return parse_quantity(text, "")
 
 

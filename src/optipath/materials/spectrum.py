@@ -10,15 +10,6 @@ import numpy as np
 
 from optipath.errors import ValueFault, listed, shown, unknown
 from optipath.materials.quantities import NON_NEGATIVE
-from optipath.materials.spectral_arithmetic import (
-    power_beyond,
-    powers_between,
-    product_of,
-    quotient_of,
-    smooth_power,
-    sum_of,
-    whole_power,
-)
 from optipath.materials.spectrum_kinds import (
     PLACES,
     BlackBody,
@@ -34,10 +25,17 @@ from optipath.materials.spectrum_kinds import (
     check_known_at,
     density_of_lines,
     edges_of,
+    power_beyond,
+    powers_between,
+    product_of,
+    quotient_of,
     several,
     single,
+    smooth_power,
+    sum_of,
     value_outside,
     values_at,
+    whole_power,
 )
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve
