@@ -488,9 +488,9 @@ class Material:
         """
         for part in (self.n, self.k):
             if isinstance(part, Parameter):
+                at = ", or give material.at('550 nm')" * isinstance(part, CurveValue)
                 raise ParameterError(
-                    f"{part.called} is not known yet; let the Material itself stand in the path, "
-                    f"or take it at a wavelength, material.at('550 nm')"
+                    f"{part.called} is not known yet; let the Material itself stand in the path{at}"
                 )
         without = not is_traced(self.k) and not np.any(self.k)
         return self.n if without else self.n + 1j * self.k
