@@ -122,7 +122,7 @@ cauchy, lorentz = op.Material.cauchy, op.Material.tauc_lorentz
 REFUSED = [
     (
         lambda: gold().refractive_index,
-        "n of gold is not known yet; let the Material itself stand in the path, or take it at",
+        "n of gold is not known yet; let the Material",
     ),
     (lambda: gold().at("3 um"), '1937 nm, for which gold is known, or ask for | "nearest" or "lin'),
     (lambda: gold().at(516), "516 metres, which is no wavelength of light; for nanometres"),
@@ -148,7 +148,7 @@ REFUSED = [
     (lambda: drude(9, 0.1, 1.0, [(1, 2)]), "[(strength, energy, damping), "),
     (lambda: lorentz((1, 2, 3, 4)), "give a row of 4 numbers for each"),
     (lambda: lorentz([(1, 2, 4, 1)]), "a broadening below twice the energy"),
-    (lambda: OPEN.at("1 um"), "n of x follows from parameter 'b' besides | give the parameter a"),
+    (lambda: OPEN.at("1 um"), "n of x follows from parameter 'b' besides | give it a default"),
     (lambda: op.Crystal.named("quarz"), "did you mean 'quartz'"),
     (lambda: op.Crystal(op.Material(1.5), 1.6), "extraordinary of the crystal is 1.6; give"),
     (lambda: op.Crystal.named("quartz").birefringence.at("3 um"), "known"),

@@ -147,7 +147,7 @@ def test_where_nothing_can_be_taken_over_a_fault_says_so_once(boundaries, words)
         (lambda: op.Interface(F, 0.3), "ValueFault.*index must be an index of refraction"),
         (
             lambda: op.LayerStack([1, F, 1], 0.3),
-            "ValueFault.*first cannot be FOLLOWS",
+            "ValueFault.*medium in front, can be FOLLOWS",
         ),
         (FOLLOWING.mueller, "PathError.*interface takes its outside and incidence over from"),
     ],
