@@ -8,7 +8,7 @@ from __future__ import annotations
 from functools import singledispatch
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements.coupling import Coupling, vanishes
+from optipath.elements.coupling import Coupling
 from optipath.elements.interface import Interface, Mirror
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
