@@ -43,7 +43,7 @@ REFUSED = [
     ("run npgr026 --del 30", "option '--del' is unknown; did you mean '--delta'?"),
     ("run --detla 30 npgr026", f"option '--detla' {BEHIND}"),
     ("--json presets", f"option '--json' {BEHIND}"),
-    ("run npgr026 --delta @none.csv", "none.csv: there is no such file"),
+    ("run npgr026 --delta @none.csv", "none.csv: it cannot be read: No such file"),
     ("run npgr026 --n1 gold,silver", "--n1 takes one material"),
     ("run npgr026 --n1 gold --k1 0:1:3 --wavelength 500nm", "--k1 takes one value"),
     ("run npgr026 --n1 gold --wavelength 400:700:3", "'400' has no unit"),

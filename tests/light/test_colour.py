@@ -136,7 +136,7 @@ def test_light_that_has_no_colour_is_refused():
     lights, whites = (light_of(np.ones((81, n)), VISIBLE[:, None]) for n in (3, 2))
     with pytest.raises(op.ShapeError, match=r"light \(3,\), white \(2,\)"):
         lights.to_xyz(white=whites)
-    with pytest.raises(op.LightError, match=r"light of one wavelength or none, .* has no spectrum"):
+    with pytest.raises(op.LightError, match="wavelengths vary along no axis"):
         light_of(1.0, 5e-7).to_xyz()
     light = light_of(np.ones(3), np.array([900.0, 910.0, 920.0]) * NM)
     with pytest.raises(op.LightError, match=r"light of 900 nm \.\. 920 nm is not seen"):

@@ -189,11 +189,11 @@ def test_the_far_infrared_and_x_rays_can_be_said(read, text, least):
 
 WRONG = [
     ("", "gold.csv: it is empty; write the names of columns, and lines"),
-    *(("# nothing\n", "it is empty"), (NM, "line 1 is the only one")),
+    *(("# nothing\n", "it is empty"), (NM, "line 1 has no names of columns, or is the only one")),
     ("wavelength (nm),n\n500,1\n", "line 1 names no column 'k'; there are: n; or ask for k=0.0"),
     ("wavelength (nm),nn,k\n500,1,1\n", "line 1 names no column 'n'; there are: nn, k"),
     ("x,n,k\n500,1,1\n", "line 1 has 'x', 'n' and 'k'; give one column of wavelengths"),
-    ("500,1,1\n510,1,1\n", "line 1 has numbers or nothing for names of columns; begin with"),
+    ("500,1,1\n510,1,1\n", "line 1 has no names of columns, or is the only one; begin with"),
     ("wavelength,n,k\n516,1,1\n", "line 1: 'wavelength' has no unit; write 'wavelength (nm)'"),
     ("wl,n,k\n0.4,1,1\n400,1,1\n", "write 'wl (nm)', or give unit='nm'"),
     ("energy,n,k\n2.4,1,1\n", "write 'energy (eV)', or give unit='eV'"),
@@ -208,7 +208,7 @@ WRONG = [
     (NM + f"500,1,{'1' * 200_000}\n", "line 2 cannot be read: field larger than field limit"),
     (UM + "400,1,1\n500,1,1\n", "are 400 um .. 500 um, which are most likely nm; give the unit nm"),
     (NM + "0.4,1,1\n0.5,1,1\n", "are 0.4 nm .. 0.5 nm, which are most likely um; give the unit um"),
-    (WL + "0.6,1\nwl (um),k\n0.5,1\n", "line 4 begins a second table, whose wavelengths are not"),
+    (WL + "0.6,1\nwl (um),k\n0.5,1\n", "line 4 begins a second table, of other wavelengths"),
     ("wl (um),n,k\n0.5,1,1\nwl (um),k\n0.5,1\n", "line 3 begins a second table of k; keep"),
     (WL + "wl (um),k\n0.5,x\n", "line 4: k is 'x', which is no number"),
     (WL + "wl (um),n2\n0.5,1\n", "line 1 names no column 'k'"),
@@ -261,7 +261,7 @@ def test_all_faults_are_told_at_once_and_files_that_are_missing(read, tmp_path):
     assert (len(fault.value.faults), fault.value.faults[-1]) == (13, "and 988 more")
     with pytest.raises(ValueFault, match=r"begin with a line such as 'wavelength \(nm\), power'"):
         read("400,1\n500,2\n", ["power"])
-    with pytest.raises(ValueFault, match=r"silver\.csv: there is no such file; look at its name"):
+    with pytest.raises(ValueFault, match=r"silver\.csv: it cannot be read: No such file"):
         read_columns(tmp_path / "silver.csv", NK)
     with pytest.raises(ValueFault, match="it cannot be read"):
         read_columns(tmp_path, NK)

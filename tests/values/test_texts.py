@@ -204,15 +204,15 @@ def test_a_file_gives_the_cells_of_the_column_of_the_parameter_with_its_unit(tmp
     assert several_texts(POLARIZER, text) == ["none", "horizontal", "30 deg"]
     with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
         several_texts(POLARIZER, written(tmp_path, "horizontal\nvertical\n"))
-    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
+    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: it cannot be read: No such file"):
         several_texts(DELTA, "@nowhere.csv")
 
 
 @rows(
     "text, told",
     [
-        *(("", "it is empty"), ("10\n20\n", "line 1 has numbers or nothing for names of columns")),
-        ("delta\n", "line 1 is the only one"),
+        *(("", "it is empty"), ("10\n20\n", "line 1 has no names of columns, or is the only one")),
+        ("delta\n", "line 1 has no names of columns, or is the only one"),
         ("rho,phi\n1,2\n", "of the columns rho and phi, none is called 'delta'"),
         ("detla,phi\n1,2\n", "; did you mean 'detla'?"),
         ("delta,delta\n1,2\n", "line 1 names 'delta' twice"),

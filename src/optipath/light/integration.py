@@ -38,15 +38,12 @@ def spectral_axis(light: Light) -> tuple[Array, int]:
     check_known("the wavelengths that light is added up over", wavelength)
     every = np.broadcast_to(wavelength, light.shape)
     axes = [axis for axis in range(every.ndim) if _varies(every, axis)]
-    if not axes:
+    if len(axes) != 1:
+        many = f"axes {listed([*map(str, axes)])}" if axes else "no axis"
         raise LightError(
-            f"light of one wavelength or none, of shape {light.shape}, has no spectrum; trace "
-            f"several, wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
-        )
-    if len(axes) > 1:
-        raise LightError(
-            f"the wavelengths vary along axes {listed([*map(str, axes)])} of light of shape "
-            f"{light.shape}, and a spectrum has one; take a part of the light"
+            f"the wavelengths vary along {many} of light of shape {light.shape}, and a spectrum "
+            f"has one; take a part of it, or trace several, "
+            f"wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
         )
     (axis,) = axes
     grid = np.moveaxis(every, axis, -1)[(0,) * (every.ndim - 1)]

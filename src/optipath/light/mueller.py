@@ -92,7 +92,8 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
         matrix = real_array("a Mueller matrix", matrix, (4, 4))
         stored = matrix if is_jax(matrix) else read_only(matrix, widened=False)
-        vars(self).update(matrix=stored, frame_in=frames[0], frame_out=frames[1], _given=True)
+        vars(self).update(matrix=stored, frame_in=frames[0], frame_out=frames[1])
+        vars(self).update(_noise=0.0, _given=True)
 
     @cached_property
     def frame_in(self) -> Frame:
@@ -110,6 +111,9 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         matrix: Any,
         frame_in: Frame | Callable[[], Frame],
         frame_out: Frame | Callable[[], Frame],
+        noise: Any = None,
+        *,
+        given: bool = False,
     ) -> Mueller:
         """Return what has been computed as a Mueller matrix: the array becomes read-only.
 
@@ -120,6 +124,10 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         frame_in, frame_out : Frame or callable
             Those of the light that comes in and that goes out, or what returns them when
             somebody asks.
+        noise : ndarray of shape (...) or callable, optional
+            What is noise beyond the rounding of the matrix, or what returns it for the matrix.
+        given : bool, optional
+            Whether it `is_given`.
 
         Returns
         -------
@@ -127,6 +135,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         result = cls.__new__(cls)
         own = vars(result)
+        own.update(_noise=0.0 if noise is None else noise, _given=given)
         own["matrix"] = locked(matrix)
         own["frame_in" if type(frame_in) is Frame else "_frame_in"] = frame_in
         own["frame_out" if type(frame_out) is Frame else "_frame_out"] = frame_out
@@ -303,34 +312,15 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> print(Mueller(np.eye(4)).noise)
         2.220446049250313e-16
         """
-        noise = vars(self).get("_noise", 0.0)
+        noise = vars(self)["_noise"]
         noise = noise(self.matrix) if callable(noise) else noise
         least = rounding(known(self.matrix)[..., 0, :])
         return locked(namespace(least).maximum(least, noise))  # type: ignore[no-any-return]
 
-    def with_noise(self, noise: Array | Callable[[Any], Any], *, given: bool = False) -> Mueller:
-        """Return the same matrix, of which more is noise than its own rounding.
-
-        Parameters
-        ----------
-        noise : ndarray of shape (...), or callable
-            The noise, or what returns it for the matrix when somebody asks.
-        given : bool, optional
-            Whether it `is_given`.
-
-        Returns
-        -------
-        Mueller
-        """
-        frames = self._cached_frame("frame_in"), self._cached_frame("frame_out")
-        result = self.of(self.matrix, *frames)
-        vars(result).update(_noise=noise, _given=given)
-        return result
-
     @property
     def is_given(self) -> bool:
         """Whether its numbers, or some of its factors', come from outside, as measured ones do."""
-        return bool(vars(self).get("_given", False))
+        return bool(vars(self)["_given"])
 
     def lu_chipman(self) -> LuChipman:
         """Return the matrix as a depolarizer behind a retarder behind a diattenuator.
@@ -392,8 +382,9 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         def mirrored(name: str) -> Callable[[], Frame]:
             return lambda: getattr(self, name).reversed()
 
-        back = self.of(reciprocal(self.matrix), mirrored("frame_out"), mirrored("frame_in"))
-        return back.with_noise(lambda _: self.noise, given=self.is_given)
+        frames = mirrored("frame_out"), mirrored("frame_in")
+        matrix = reciprocal(self.matrix)
+        return self.of(matrix, *frames, lambda _: self.noise, given=self.is_given)
 
     def to(self, convention: str) -> Array:
         """Return the matrices as other software writes them, of shape (..., 4, 4).
@@ -491,8 +482,8 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             product = matrix @ turn @ before
         frames = other._cached_frame("frame_in"), self._cached_frame("frame_out")
         noise = noise_of_product(*((m.matrix, m.noise) for m in (self, other)))
-        both = Mueller.of(product.astype(coarser(matrix, before), copy=False), *frames)
-        return both.with_noise(noise, given=self.is_given or other.is_given)
+        product = product.astype(coarser(matrix, before), copy=False)
+        return Mueller.of(product, *frames, noise, given=self.is_given or other.is_given)
 
     def __rmatmul__(self, other: object) -> NoReturn:
         """Refuse what has no frames."""
@@ -523,8 +514,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             self._part_of_frame(name, self.shape, change) for name in ("frame_in", "frame_out")
         )
         matrix = flat.reshape(*flat.shape[:-1], 4, 4)
-        part = Mueller.of(matrix, *frames)
-        return part.with_noise(lambda _: change(self.noise), given=self.is_given)
+        return Mueller.of(matrix, *frames, lambda _: change(self.noise), given=self.is_given)
 
     def _over_m00(self, entries: Array) -> Array:
         """Return entries over M00; NaN where that is no more than noise."""

@@ -31,13 +31,11 @@ class FramesOnDemand:
     def _part_of_frame(
         self, name: str, batch: tuple[int, ...], change: Callable[[Any], Any]
     ) -> Frame | Callable[[], Frame]:
-        """Return what `indexed_frame` does, or what returns it where nobody has to make it."""
+        """Return the frames that belong to a part of a batch, or what returns them."""
         stored = self._cached_frame(name)
-        if type(stored) is Frame and (
-            stored.z.ndim == 1 or not is_traced(change(np.broadcast_to(0.0, batch)))
-        ):
-            return indexed_frame(stored, batch, change)
-        return lambda: indexed_frame(getattr(self, name), batch, change)
+        if type(stored) is Frame and stored.z.ndim == 1:
+            return stored
+        return lambda: _indexed_frame(getattr(self, name), batch, change)
 
     def __getstate__(self) -> dict[str, Any]:
         # What makes frames stays here.
@@ -48,8 +46,7 @@ class FramesOnDemand:
         return own
 
 
-def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], Any]) -> Frame:
-    """Return the frames that belong to a part of a batch."""
+def _indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], Any]) -> Frame:
     if frame.z.ndim == 1:
         return frame
     axes = [np.broadcast_to(axis, (*batch, 3)) for axis in (frame.x, frame.y, frame.z)]

@@ -236,8 +236,8 @@ class Plan:
         matrix = self.answers.matrix(begin, end, parameters)
         ends = program.sources[begin][1], program.readings[end].frame
         frames = (self.answers.framed(frame, parameters) for frame in ends)
-        result = Mueller.of(matrix, *frames)
-        return result.with_noise(partial(matrix_noise_at, self.answers, begin, end, parameters))
+        noise = partial(matrix_noise_at, self.answers, begin, end, parameters)
+        return Mueller.of(matrix, *frames, noise)
 
     def paths(
         self,

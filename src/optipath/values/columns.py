@@ -162,28 +162,24 @@ def read_columns(
         for name in names
         if not any(_among(table, name) for table in tables)
     ]
-    result = CsvColumns(file.stem, np.empty(0), {})
+    grids: list[np.ndarray[Any, Any]] = []
+    results: dict[str, np.ndarray[Any, Any]] = {}
     for table in tables:
-        number = table[0].header
         here = [name for name in names if _among(table, name)]
         if not here and table is not tables[0]:
             continue
+        second = f"line {table[0].header} begins a second table"
+        if twice := sorted(results.keys() & here):
+            faults.append(f"{second} of {listed(twice)}; keep one")
         with collecting(faults):
-            wavelengths = _wavelengths(table, number, unit)
-            columns = {name: _numbers(table, name) for name in here}
-            if twice := sorted(columns.keys() & result.columns):
-                raise ValueFault(
-                    f"line {number} begins a second table of {listed(twice)}; keep one"
-                )
-            if result.columns and not np.array_equal(wavelengths, result.wavelengths):
-                raise ValueFault(
-                    f"line {number} begins a second table, whose wavelengths are not those of the "
-                    f"first; write all columns into lines of common wavelengths"
-                )
-            result = CsvColumns(file.stem, wavelengths, result.columns | columns)
+            grids.append(_wavelengths(table, unit))
+            results |= {name: _numbers(table, name) for name in here}
+            if not np.array_equal(grids[0], grids[-1]):
+                cure = "write all columns into lines of common wavelengths"
+                faults.append(f"{second}, of other wavelengths; {cure}")
     if faults:
         raise ValueFault(*first_of(faults), about=str(file))
-    return result
+    return CsvColumns(file.stem, grids[0], results)
 
 
 _AXES = {
@@ -232,13 +228,11 @@ def _columns(
     heads = [(head, "") if head in known else split_heading(head) for head in header]
     names = [name for name, _ in heads]
     faults = []
-    if any(_NUMBER.match(cell) or not cell for cell in header):
+    if not rows or any(_NUMBER.match(cell) or not cell for cell in header):
         faults.append(
-            f"line {number} has numbers or nothing for names of columns; begin with a line such as "
-            f"'{example}'"
+            f"line {number} has no names of columns, or is the only one; begin with a line such as "
+            f"'{example}', and write one for each value behind it"
         )
-    elif not rows:
-        faults.append(f"line {number} is the only one; write a line for each value behind it")
     faults += [
         f"line {line} has {len(cells)} values, and line {number} has {len(header)} names; "
         f"write one for each"
@@ -264,31 +258,27 @@ def _columns(
     ]
 
 
-def _wavelengths(table: Sequence[TextColumn], number: int, unit: str) -> np.ndarray[Any, Any]:
+def _wavelengths(table: Sequence[TextColumn], unit: str) -> np.ndarray[Any, Any]:
     """Return the wavelengths of a table in metres."""
     axes = [column for column in table if column.name.lower() in _AXES]
+    line = f"line {table[0].header}"
     if len(axes) != 1:
         names = listed([f"'{column.name}'" for column in axes or table])
-        raise ValueFault(
-            f"line {number} has {names}; give one column of wavelengths, such as 'wavelength (nm)'"
-        )
+        cure = "give one column of wavelengths, such as 'wavelength (nm)'"
+        raise ValueFault(f"{line} has {names}; {cure}")
     (axis,) = axes
     unit = _SPELT.get(unit, unit)
     dimension = _AXES[axis.name.lower()]
     known = [*SPECTRAL.get(dimension, units_of(dimension))]
     own = axis.unit or unit
-    if axis.unit and unit and axis.unit != unit:
-        raise ValueFault(
-            f"line {number} has the unit {axis.unit}, and unit='{unit}' is given; leave it out"
-        )
-    if own and own not in known:
-        raise ValueFault(f"line {number}: '{own}' is no unit of '{axis.name}'{there_are(known)}")
     have_units = [bool(unit_of(cell)) for cell in axis.cells]
+    if unit and own != unit:
+        raise ValueFault(f"{line} has the unit {own}, and unit='{unit}' is given; leave it out")
+    if own and own not in known:
+        raise ValueFault(f"{line}: '{own}' is no unit of '{axis.name}'{there_are(known)}")
     if not own and not all(have_units):
-        raise ValueFault(
-            f"line {number}: '{axis.name}' has no unit; write '{axis.name} ({known[0]})', or give "
-            f"unit='{known[0]}'"
-        )
+        cure = f"write '{axis.name} ({known[0]})', or give unit='{known[0]}'"
+        raise ValueFault(f"{line}: '{axis.name}' has no unit; {cure}")
     results = _each(axis._replace(unit=own).texts, axis.lines, _wavelength)
     if doubt := unit_doubted(results, "" if any(have_units) else own):
         raise ValueFault(doubt)
@@ -356,8 +346,6 @@ def lines_of(file: Path) -> list[Line]:
     """Return the lines with values, each with its number."""
     try:
         text = bytes_of(file).decode("utf-8-sig")
-    except FileNotFoundError:
-        raise ValueFault("there is no such file; look at its name", about=str(file)) from None
     except (OSError, UnicodeDecodeError) as fault:
         why = "it is no text in UTF-8" if isinstance(fault, ValueError) else fault.strerror
         raise ValueFault(f"it cannot be read: {why}", about=str(file)) from None

@@ -7,6 +7,7 @@ import operator
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
+from itertools import chain
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Self
 
@@ -167,34 +168,35 @@ class Parameter:
 
     def _read_limits_and_words(self) -> None:
         """Put numbers in place of texts."""
-        parse = partial(parse_quantity, dimension=dimension_of(self.unit))
         faults: list[str] = []
         numbers = []
-        for what, number in _limits_and_words(self):
-            if type(number) is float:
-                numbers.append(number)
-                continue
+        for what, value in _limits_and_words(self):
             with collecting(faults, ParameterError):
-                numbers.append(numbers_for(what, number, parse, ParameterError))
+                numbers.append(value if type(value) is float else self._one_number(what, value))
         if faults:
             raise ParameterError(*faults)
         low, high, *words = numbers
-        low, high = self._limit(low), self._limit(high)
+        low, high = (float(doubles(np.asarray(end))) for end in (low, high))
         if not low <= high:
             limits = f"{self.text(low)} .. {self.text(high)}"
             raise ParameterError(f"{self.called} has the range {limits}; begin with the lower end")
         vars(self).update(minimum=low, maximum=high)
+        for word in self.words:
+            if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
+                raise ParameterError(
+                    f"{self.called} cannot have the word {shown(word)}; begin with a letter, "
+                    f"and keep '{ABSENT}' for an element that is left out"
+                )
         read = zip(self.words, words, strict=True)
-        vars(self).update(words={word: self._word(word, value) for word, value in read})
+        vars(self).update(words={word: float(self.resolve(raw).value) for word, raw in read})
 
-    def _limit(self, value: Any) -> float:
-        if type(value) is float:
-            return value
-        what = f"the range of {self.called}"
-        array = array_of(what, value, ParameterError)
+    def _one_number(self, what: str, value: Any) -> Any:
+        parse = partial(parse_quantity, dimension=dimension_of(self.unit))
+        read = numbers_for(what, value, parse, ParameterError)
+        array = as_argument(what, read, ParameterError)
         if array.ndim or array.dtype.kind not in "iuf":
-            raise ParameterError(f"{what} must be numbers, not {shown(value)}")
-        return float(array)
+            raise ParameterError(f"{what} must be a number, not {shown(value)}")
+        return array
 
     def _read_shape(self) -> None:
         """Put numbers in place of scale and offset, and the dimension that a text names."""
@@ -209,18 +211,6 @@ class Parameter:
                 f"offset {shown(self.offset)}"
             )
         vars(self).update(scale=scale, offset=offset, offset_dimension=dimension)
-
-    def _word(self, word: Any, value: Any) -> float:
-        if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
-            raise ParameterError(
-                f"{self.called} cannot have the word {shown(word)}; begin with a letter, "
-                f"and keep '{ABSENT}' for an element that is left out"
-            )
-        what = f"the word '{word}' of {self.called}"
-        number = array_of(what, value, ParameterError, (self.minimum, self.maximum))
-        if isinstance(value, str) or number.ndim or number.dtype.kind not in "iuf":
-            raise ParameterError(f"{what} must be a number, not {shown(value)}")
-        return float(self.resolve(value).value)
 
     def _as_number(self, value: Any) -> Any:
         """Return a default with its texts read; words stay words."""
@@ -290,12 +280,9 @@ class Parameter:
 
     def _number_of(self, argument: Any) -> Any:
         """Return the numbers that a `CosSin` or a `Material` stands for; else what is given."""
-        if isinstance(argument, CosSin):
-            return self._angle(argument)
-        is_index = is_material(argument) and not dimension_of(self.unit)
-        return argument.refractive_index if is_index else argument
-
-    def _angle(self, argument: CosSin) -> Any:
+        if not isinstance(argument, CosSin):
+            is_index = is_material(argument) and not dimension_of(self.unit)
+            return argument.refractive_index if is_index else argument
         if dimension_of(self.unit) != "angle":
             what = f"{self.called} is no angle"
             raise ParameterError(f"{what}, but a cosine and a sine are given; give a number")
@@ -367,8 +354,7 @@ class Parameter:
             entry = self._number_of(entry)
             number = array_of(self.called, entry, ParameterError, limits)
             if number.ndim or number.dtype.kind not in "iufc":
-                wrong = f"{self.called} must be a number, not {shown(entry)}"
-                raise ParameterError(wrong)
+                raise ParameterError(f"{self.called} must be a number, not {shown(entry)}")
             return number[()]
         value = self.parse(entry)
         return self.words.get(value) if isinstance(value, str) else value
@@ -575,13 +561,9 @@ def is_material(argument: Any) -> bool:
 
 def _first_unit(values: list[Any]) -> str:
     """Return the unit of the first text that has one; none where there is none."""
-    for value in values:
-        several = value if isinstance(value, (list, tuple)) else [value]
-        for text in several:
-            unit = unit_of(text) if isinstance(text, str) else ""
-            if unit:
-                return unit
-    return ""
+    several = chain(*(v if isinstance(v, (list, tuple)) else [v] for v in values))
+    units = (unit_of(text) for text in several if isinstance(text, str))
+    return next(filter(None, units), "")
 
 
 _OF_A_COMPOSER = ("method", "model", "engine", "dtype", "tolerance", "composing", "loops")
@@ -608,9 +590,6 @@ def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = ""
     >>> unknown_word("t", "half", [])
     "parameter 't' knows no word 'half'; give a number"
     """
-    if word.lower() == "nan":
-        wanted = _number(dimension)
-        return f"parameter '{name}' cannot be '{word}', which is not finite; give {wanted}"
     return f"parameter '{name}' knows no word '{word}'{word_meant(word, known, dimension)}"
 
 
