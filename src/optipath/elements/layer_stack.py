@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -40,7 +39,7 @@ from optipath.materials.quantities import (
     YesOrNo,
 )
 from optipath.values.agreement import Agreement, text_of
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 from optipath.values.arrays import changed, check_broadcast
 from optipath.values.operands import NOTHING, Operand, Operation, operand_of
 
@@ -387,7 +386,7 @@ class ThinLayer(Agreement):
     def fault(self, arguments: Mapping[str, Resolved] = NOTHING) -> str:
         """Warn of a thin layer, which is no fault."""
         if super().fault(arguments):
-            warnings.warn(self.sentence(), CoherenceWarning, stacklevel=calls_up())
+            warn(self.sentence(), CoherenceWarning)
         return ""
 
     def inside(self, arguments: Mapping[str, Resolved]) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from optipath.materials.illuminants import (
     observer_called,
 )
 from optipath.materials.spectrum import Spectrum
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 from optipath.values.arrays import Unchanging, check_broadcast, locked, same
 from optipath.values.curve_value import CurveValue
 from optipath.values.jax_values import check_known, is_traced, known, namespace
@@ -240,22 +239,20 @@ def warn_of(light: Light, observer: Observer, outside: str) -> None:
         raise LightError(f"{light_of} is not seen; give wavelengths within 380 nm .. 780 nm")
     ends_within = first > _VISIBLE[0] + _ROUNDING or last < _VISIBLE[1] - _ROUNDING
     if ends_within and outside == "dark":
-        _warn(
+        warn(
             f"the light is known from {first:.6g} nm to {last:.6g} nm, and taken for dark "
             f"beyond, where white light has up to {100 * observer.left_out(grid):.3g} % of its X, "
-            f"Y or Z; compute it from 380 nm to 780 nm, or write outside='nearest'"
+            f"Y or Z; compute it from 380 nm to 780 nm, or write outside='nearest'",
+            ColourWarning,
         )
     inside = grid[(grid >= _VISIBLE[0]) & (grid <= _VISIBLE[1])]
     widest = np.max(np.diff(inside if len(inside) > 1 else grid))
     if widest > _COARSE + _ROUNDING:
-        _warn(
+        warn(
             f"wavelengths are {widest:.6g} nm apart, and the light is linear between them: what "
-            f"is narrower is not seen, and colours may be off by some per cent; take 5 nm"
+            f"is narrower is not seen, and colours may be off by some per cent; take 5 nm",
+            ColourWarning,
         )
-
-
-def _warn(sentence: str) -> None:
-    warnings.warn(sentence, ColourWarning, stacklevel=calls_up())
 
 
 BRADFORD = np.array(

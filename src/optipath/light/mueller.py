@@ -7,7 +7,6 @@ unknown.
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
@@ -27,7 +26,7 @@ from optipath.light.light import Light
 from optipath.light.on_demand import FramesOnDemand, inherited_noise, rounding
 from optipath.light.passive import check_becomes_light, nan_where_no_light
 from optipath.light.polarization_state import direction, length, norm, ratio
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array, same
 from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.precision import coarser
@@ -543,11 +542,10 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             (near > _MIXES, "is not that of an isotropic sample in its frame of s and p"),
         ):
             if np.any(lit & bad):
-                warnings.warn(
+                warn(
                     f"psi and Delta are read off a matrix that {what}, and is none of r_p / r_s; "
                     f"use the whole matrix",
                     CoherenceWarning,
-                    stacklevel=calls_up(),
                 )
                 return
 

@@ -6,7 +6,6 @@ summed in twice the precision, by the same kernels.
 
 from __future__ import annotations
 
-import warnings
 from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +17,7 @@ from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.double_double import DoubleDouble, twice
 from optipath.kernels.primitives import NUMPY
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
@@ -77,12 +76,11 @@ def check_gains(solvers: Sequence[LoopSolver]) -> None:
                 f"comes back each time; let some of it leave, or absorb some"
             )
         elif worst.leaves < _WARNED:
-            warnings.warn(
+            warn(
                 f"of the light that goes round at '{place}', all but {worst.leaves:.2g} comes back "
                 f"each time; the condition number of the sum is {worst.condition:.2g}, by which "
                 f"errors of the values that are given may be enlarged",
                 LoopWarning,
-                stacklevel=calls_up(),
             )
     if faults:
         raise ParameterError(*faults)

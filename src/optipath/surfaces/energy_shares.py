@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from contextlib import closing
 from dataclasses import dataclass
 from math import ceil
@@ -22,7 +21,7 @@ from optipath.surfaces.walk.beam import (
     beam_of,
     walked_in_order,
 )
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 from optipath.values.precision import Numbers, real_number, whole_number
 
 if TYPE_CHECKING:
@@ -125,11 +124,10 @@ def walk_wanted(
         if tolerance is None or error <= tolerance:
             return result
         if run.photons >= most:
-            warnings.warn(
+            warn(
                 f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
                 f"the tolerance of {tolerance:g}; allow more photons",
                 PhotonWarning,
-                calls_up(),
             )
             return result
         factor = min(_AIM * (error / tolerance) ** 2, _MOST_GROWN)
@@ -317,11 +315,10 @@ def checked_energy(run: EnergyRun) -> Energy:
         return result
     missing, error = float(result.absorbed), float(result.absorbed_se)
     if abs(missing) > _ERRORS * error + _ROUNDINGS:
-        warnings.warn(
+        warn(
             f"R + T + lost is {1.0 - missing:.4f} where nothing absorbs, off by "
             f"{abs(missing) / error:.0f} standard errors: few photons carry light that is trapped; "
             f"walk more of them, or trust the shares without polarisation",
             PhotonWarning,
-            calls_up(),
         )
     return result

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from typing import Any, NamedTuple, TypeAlias
 
@@ -12,7 +11,7 @@ import numpy as np
 from optipath.errors import Cure, Fault, MeshWarning, SurfaceError, shown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 from optipath.values.arrays import refuse_too_large
 from optipath.values.precision import Array, is_whole, real_number, whole_number
 
@@ -132,7 +131,7 @@ def warn_of_coarse(alpha: Pair, size: Pair, cells: tuple[int, int]) -> None:
     )
     ways = f"cells={enough}", f"--cells {','.join(map(str, enough))}"
     cure = Cure.of("{} are enough".format, *ways)
-    warnings.warn(Fault(why, cure), MeshWarning, stacklevel=calls_up())
+    warn(Fault(why, cure), MeshWarning)
 
 
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0

@@ -8,7 +8,6 @@ of the job, the number of the block, and its values; it is 0 of a block that is 
 from __future__ import annotations
 
 import json
-import warnings
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -25,7 +24,7 @@ from zarr.errors import ContainsArrayError
 from zarr.storage import FsspecStore, LocalStore
 
 from optipath.errors import JobError, OptipathError, StoreWarning, shown
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -150,11 +149,10 @@ class BlockStore:
             for number in damaged:
                 self.arrays[_MARKS][number] = 0
         if damaged:
-            warnings.warn(
+            warn(
                 f"{len(damaged):,} of {job.blocks:,} blocks of '{self.place}' are damaged and "
                 f"computed anew",
                 StoreWarning,
-                stacklevel=calls_up(),
             )
         return marks.keys() - {*damaged}
 

@@ -183,11 +183,10 @@ def warn_of_degrees(what: str, value: Any, place: Callable[[Any], Any] | None = 
     if place is not None:
         beyond &= np.abs(place(numbers)) > TURN
     if np.any(beyond & np.isfinite(numbers)):
-        warnings.warn(
+        warn(
             f"{what} is a plain number beyond 2 pi, in radians; write degrees as '48 deg', and "
             f"radians as '48 rad'",
             AngleWarning,
-            stacklevel=calls_up(),
         )
 
 
@@ -232,15 +231,14 @@ def _plain_numbers(value: Any) -> Any:
 _PASSED = ("optipath", "dataclasses", "functools")
 
 
-def calls_up() -> int:
-    """Return how many calls up from the one that warns the library was called."""
+def warn(sentence: str, category: type[Warning]) -> None:
+    """Warn where the library was called."""
     level = 1
     frame: Any = inspect.currentframe()
-    frame = frame.f_back
     while frame.f_back is not None and (
         frame.f_globals.get("__name__", "").partition(".")[0] in _PASSED
         # The makers of dataclasses and own elements are made of texts.
         or frame.f_code.co_filename.startswith("<")
     ):
         frame, level = frame.f_back, level + 1
-    return level
+    warnings.warn(sentence, category, stacklevel=level)

@@ -8,12 +8,7 @@ from typing import TYPE_CHECKING, Any, Self, cast
 import numpy as np
 
 from optipath.errors import ParameterError, ValueFault, shown
-from optipath.values.arrays import (
-    broadcast_fault,
-    changed,
-    check_broadcast,
-    place_text,
-)
+from optipath.values.arrays import broadcast_fault, changed, check_broadcast, place_text
 from optipath.values.curve import CurveSum, WavelengthRange, marked_name
 from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import is_traced

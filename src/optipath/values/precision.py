@@ -26,27 +26,19 @@ def precision(argument: Any) -> np.dtype[Any]:
 
 def precision_name(argument: Any) -> str:
     """Return which of the `DTYPES` a name, a dtype or a type of NumPy or Python is."""
-    known = type(argument) is str and argument in DTYPES
-    name = argument if known else _BY_CHARACTER.get(_character(argument))
+    name = argument if type(argument) is str and argument in DTYPES else None
+    if name is None and argument is not None:  # NumPy takes none for float64.
+        # A dtype of its own may do anything.
+        with suppress(Exception), warnings.catch_warnings():
+            warnings.simplefilter("error")  # Some aliases go, as that of np.floating.
+            dtype = np.dtype(argument)
+            name = _BY_CHARACTER.get(dtype.char) if dtype.isnative else None
     if name is None:
         cure = "give 'float64', 'float32' or 'longdouble'"
         raise ComposerError(f"dtype {shown(argument)} is unknown; {cure}")
     if name == "longdouble" and np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
         raise ComposerError("dtype 'longdouble' is no more than float64 here; use 'float64'")
     return name
-
-
-def _character(argument: Any) -> str:
-    """Return NumPy's character for a native dtype, or nothing."""
-    if argument is None:  # NumPy takes it for float64.
-        return ""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")  # Some aliases go, as that of np.floating.
-            result = np.dtype(argument)
-    except Exception:  # noqa: BLE001 - it may have a dtype of its own, which may do anything
-        return ""
-    return result.char if result.isnative else ""
 
 
 def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:

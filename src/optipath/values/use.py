@@ -64,11 +64,14 @@ class Use:
         return [*[Use(*place) for place in value.argument_places(self.owner)], self]
 
     @property
+    def _numbers(self) -> Any:
+        """The value; of a parameter, its default."""
+        return self.value.default if isinstance(self.value, Parameter) else self.value
+
+    @property
     def is_traced(self) -> bool:
         """Whether the value is known, but to JAX alone, which traces it."""
-        value = self.value
-        known = value.default if isinstance(value, Parameter) and value.bound else value
-        return is_traced(known)
+        return not self.is_open and is_traced(self._numbers)
 
     def batch_shape(self, numbers: Any) -> tuple[int, ...]:
         """Return the shape of numbers for this place, the axes of one value left out."""
@@ -81,20 +84,17 @@ class Use:
 
     def known_shape(self) -> tuple[int, ...]:
         """Return the batch shape of a value that is known."""
-        value = self.value
-        return self.batch_shape(value.default if isinstance(value, Parameter) else value)
+        return self.batch_shape(self._numbers)
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths a value that JAX traces is allowed; True for any other."""
         value: Any = self.value
-        parameter = isinstance(value, Parameter)
-        numbers: Any = resolved[value.name].value if self.is_open else value
-        numbers = numbers.default if parameter and value.bound else numbers
+        numbers: Any = resolved[value.name].value if self.is_open else self._numbers
         if not is_traced(numbers):
             return True
-        placed = value.placed(numbers) if parameter else numbers
-        results = [self.domain.allows(placed)]
-        if parameter:
+        is_parameter = isinstance(value, Parameter)
+        results = [self.domain.allows(value.placed(numbers) if is_parameter else numbers)]
+        if is_parameter:
             # What is not looked at, as behind the end of a chain, may be no number.
             unseen = self.domain.takes_any and ~namespace(numbers).isfinite(numbers)
             results.append(value.allows(numbers) | unseen)
@@ -116,9 +116,9 @@ class Use:
                 f"{self.domain.described()}; change its unit or where it is used"
             )
         self._check_multiple()
-        if self.value.is_material:
-            self.refuse_material(self.value.default)
         default = self.value.default
+        if self.value.is_material:
+            self.refuse_material(default)
         if type(default) is float:  # Whether it is in the range was asked when it was made.
             self.check_arguments(default)
         elif default is not None:
@@ -198,7 +198,7 @@ def make_sound(
 ) -> bool:
     """Replace the values of something by what it keeps, and refuse what is not allowed."""
     sound: dict[str, Domain] = {}
-    faults: dict[str, list[str]] = {}
+    faults: dict[str, tuple[str, ...]] = {}
     for name, domain in domains.items():
         value = getattr(whole, name)
         number = float(value) if type(value) is int and abs(value) <= _EXACT else value
@@ -210,7 +210,7 @@ def make_sound(
         try:
             object.__setattr__(whole, name, stored_value(owner, value, domain))
         except ValueFault as fault:
-            faults[name] = list(fault.faults)
+            faults[name] = fault.faults
     if _is_checked_later.get():
         return False
     if of_fields and len(sound) == len(domains):
@@ -227,16 +227,16 @@ def make_sound(
 def stored_value(owner: str, value: Any, domain: Domain) -> Any:
     """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit."""
     warns = domain.dimension == "angle" and not _is_checked_later.get()
+    looks = warns and domain.takes_large_angles
     if not isinstance(value, Parameter):
-        if warns and domain.takes_large_angles:
+        if looks:
             warn_of_degrees(owner, value)
         return domain.kept(domain.read(owner, value))
-    if warns and domain.takes_large_angles:
-        # Of a parameter with a unit, it has been told when it was made.
-        if value.bound or not value.unit:
-            warn_of_degrees(owner, value.plain_numbers, value.placed)
-        if not value.offset_dimension:
-            warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
+    # Of a parameter with a unit, it has been told when it was made.
+    if looks and (value.bound or not value.unit):
+        warn_of_degrees(owner, value.plain_numbers, value.placed)
+    if looks and not value.offset_dimension:
+        warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
     if warns and not value.unit:
         warn_of_limits(value, value.placed)
     return in_unit_of(value, domain)

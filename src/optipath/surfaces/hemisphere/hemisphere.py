@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -20,7 +19,7 @@ from optipath.materials.quantities import ANGLE
 from optipath.surfaces.facet_model import alpha_of, frame_along, reflected_once
 from optipath.surfaces.hemisphere.beam import PixelMask
 from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
-from optipath.values.angles import calls_up
+from optipath.values.angles import warn
 from optipath.values.arrays import first_place, same
 from optipath.values.precision import Numbers, whole_number
 from optipath.values.units import format_quantity
@@ -415,12 +414,11 @@ error at most 0.2 of the difference, or at most 0.001
         z = self.frames_toward(direction, side)["out"].z
         near = 0.5 * self.sensor.pixels * self.sensor.radius(z) < _FEW_PIXELS
         if not self.seen.beam.sample.is_flat and np.any(near):
-            warnings.warn(
+            warn(
                 f"direction{first_place(near)} ({shown(direction)}) is within {_FEW_PIXELS:.0f} "
                 f"pixels of the normal, where frames turn within a pixel and linear polarisation "
                 f"is lost; measure with more and smaller pixels",
                 PhotonWarning,
-                calls_up(),
             )
         matrices, _ = pixels.estimate(self.matrices)
         if np.any(dark := matrices[..., 0, 0] == 0.0):
