@@ -46,8 +46,8 @@ def test_turning_a_frame_by_a_gives_cos_2a_and_sin_2a_wherever_it_stands(rotatio
     [
         ((0, 1, 0), r"\(0, 0, 1\).*\(0, 1, 0\)"),
         ((0, 0, -1), "one direction"),
-        ((0, 2e-8, 1), ", 2e-08 rad beside it; only frames"),
-        ((0, 1e-5, 1), ", 1e-05 rad beside it; only frames"),
+        ((0, 2e-8, 1), ", 2e-08 beside it; only frames"),
+        ((0, 1e-5, 1), ", 1e-05 beside it; only frames"),
     ],
 )
 def test_frames_of_other_directions_are_refused_but_for_rounding(z, told):

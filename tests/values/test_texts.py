@@ -213,7 +213,7 @@ def test_a_file_gives_the_cells_of_the_column_of_the_parameter_with_its_unit(tmp
     [
         *(("", "it is empty"), ("10\n20\n", "line 1 has no names of columns, or is the only one")),
         ("delta\n", "line 1 has no names of columns, or is the only one"),
-        ("rho,phi\n1,2\n", "of the columns rho and phi, none is called 'delta'"),
+        ("rho,phi\n1,2\n", "none of the columns rho and phi is 'delta'"),
         ("detla,phi\n1,2\n", "; did you mean 'detla'?"),
         ("delta,delta\n1,2\n", "line 1 names 'delta' twice"),
         ("delta\n1,2\n", "line 2 has 2 values, and line 1 has 1 names"),

@@ -9,12 +9,7 @@ import numpy as np
 from optipath.errors import ColourWarning, LightError, ValueFault, shown, unknown
 from optipath.light.integration import spectral_axis, weighted_sum
 from optipath.light.light import Light
-from optipath.materials.illuminants import (
-    LUMENS_PER_WATT,
-    NANOMETRES,
-    Observer,
-    observer_called,
-)
+from optipath.materials.illuminants import LUMENS_PER_WATT, NANOMETRES, Observer, observer_called
 from optipath.materials.spectrum import Spectrum
 from optipath.values.angles import warn
 from optipath.values.arrays import Unchanging, check_broadcast, locked, same
@@ -110,12 +105,7 @@ class Srgb(Unchanging):
 
 
 def srgb_of(
-    light: Light,
-    white: Any,
-    seen: tuple[str, str],
-    *,
-    adapt: bool,
-    out_of_gamut: str,
+    light: Light, white: Any, seen: tuple[str, str], *, adapt: bool, out_of_gamut: str
 ) -> Srgb:
     """Return the colour of light; see `Light.to_srgb`."""
     faults = unknown("out_of_gamut", out_of_gamut, OUT_OF_GAMUT)

@@ -29,9 +29,6 @@ _ORTHOGONAL = 2.0**-49
 _COARSEST = 2.0**-10
 """The rounding of half precision."""
 
-_SMALL = 1e-3
-"""Up to what angle two directions may look alike in a sentence."""
-
 
 class Frame(Unchanging):
     """A right-handed frame (x, y, z) whose z is the direction in which light travels.
@@ -263,11 +260,9 @@ def _other_direction(first: Frame, second: Frame, apart: Array) -> str:
     """Say of two frames that they cannot be aligned, where their directions differ most."""
     where = np.unravel_index(np.argmax(apart), apart.shape)
     one, other = (_text(np.broadcast_to(f.z, (*apart.shape, 3))[where]) for f in (first, second))
-    # As good as the angle, where it is small.
-    by = f", {apart[where]:.2g} rad beside it" if apart[where] < _SMALL else ""
     return (
         f"light that travels along {one} cannot be aligned with a frame that travels along "
-        f"{other}{by}; only frames with one direction can be aligned"
+        f"{other}, {apart[where]:.2g} beside it; only frames with one direction can be aligned"
     )
 
 

@@ -536,10 +536,15 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """Warn where there is no r_p / r_s: of what depolarizes, or mixes s and p."""
         lit = matrix[..., 0, 0] > self.noise
         with np.errstate(all="ignore"):
-            near = np.abs(matrix / matrix[..., :1, :1] - _isotropic(matrix)).max(axis=(-2, -1))
+            m = matrix / matrix[..., :1, :1]
+            # Isotropic, m01 = m10, m22 = m33, m23 = -m32, and m11 = 1.
+            pairs = m[..., 0, 1] - m[..., 1, 0], m[..., 2, 2] - m[..., 3, 3]
+            apart = np.abs([*pairs, m[..., 2, 3] + m[..., 3, 2], 2.0 * (m[..., 1, 1] - 1.0)])
+            across = np.abs([m[..., :2, 2:], m[..., 2:, :2]]).max(axis=(0, -2, -1))
+            mixes = np.maximum(0.5 * apart.max(axis=0), across) > _MIXES
         for bad, what in (
             (self.depolarization_index < 1.0 - _DEPOLARIZES, "depolarizes (index below 0.98)"),
-            (near > _MIXES, "is not that of an isotropic sample in its frame of s and p"),
+            (mixes, "is not that of an isotropic sample in its frame of s and p"),
         ):
             if np.any(lit & bad):
                 warn(
@@ -648,15 +653,3 @@ def noise_of_product(behind: tuple[Any, Any], before: tuple[Any, Any]) -> Any:
 def _size(matrix: Any, noise: Any) -> Any:
     """Return M00, which no entry exceeds, or the noise where that is more."""
     return namespace(matrix).maximum(abs(known(matrix)[..., 0, 0]), noise)
-
-
-def _isotropic(matrix: Array) -> Array:
-    """Return the matrix of an isotropic sample that is nearest to one, over M00."""
-    result = np.zeros(matrix.shape)
-    m = matrix / matrix[..., :1, :1]
-    result[..., 0, 0] = result[..., 1, 1] = 1.0
-    result[..., 0, 1] = result[..., 1, 0] = (m[..., 0, 1] + m[..., 1, 0]) / 2.0
-    result[..., 2, 2] = result[..., 3, 3] = (m[..., 2, 2] + m[..., 3, 3]) / 2.0
-    result[..., 2, 3] = (m[..., 2, 3] - m[..., 3, 2]) / 2.0
-    result[..., 3, 2] = -result[..., 2, 3]
-    return result

@@ -112,49 +112,24 @@ COMPONENTS = (
     LightQuantity("S2", "2", "", "diagonal over antidiagonal", reads="linear"),
     LightQuantity("S3", "3", "", "right-handed over left-handed circular"),
 )
-_SHARE = 0.0, 1.0
+_SHARE, _SIGNED = (0.0, 1.0), (-1.0, 1.0)
+_QUARTER, _AXIS, _PHASE = (0.0, 90.0), (-90.0, 90.0), (-180.0, 180.0)
+_TURN = 2.0 * np.pi
+_OF_AXIS = "angle of polarisation, from x towards y"
+_OF_ELLIPSE = "minor over major axis, with the sign of S3"
+_OF_PSI = "ellipsometric psi of the polarised part"
+_OF_DELTA = "ellipsometric Delta of the polarised part"
 
 DERIVED = (
     LightQuantity("DoP", "dop", "1", "degree of polarisation", _of_dop, _SHARE),
     LightQuantity(
         "DoLP", "dolp", "1", "degree of linear polarisation", _of_dolp, _SHARE, reads="linear"
     ),
+    LightQuantity("AoP", "aop", "rad", _OF_AXIS, _of_aop, _AXIS, np.pi, "linear"),
+    LightQuantity("ellipticity", "ellipticity", "1", _OF_ELLIPSE, _of_ellipticity, _SIGNED),
+    LightQuantity("psi", "psi", "rad", _OF_PSI, _of_psi, _QUARTER, longer="Psi (ellipsometry)"),
     LightQuantity(
-        "AoP",
-        "aop",
-        "rad",
-        "angle of polarisation, from x towards y",
-        _of_aop,
-        (-90.0, 90.0),
-        np.pi,
-        reads="linear",
-    ),
-    LightQuantity(
-        "ellipticity",
-        "ellipticity",
-        "1",
-        "minor over major axis, with the sign of S3",
-        _of_ellipticity,
-        (-1.0, 1.0),
-    ),
-    LightQuantity(
-        "psi",
-        "psi",
-        "rad",
-        "ellipsometric psi of the polarised part",
-        _of_psi,
-        (0.0, 90.0),
-        longer="Psi (ellipsometry)",
-    ),
-    LightQuantity(
-        "delta",
-        "delta",
-        "rad",
-        "ellipsometric Delta of the polarised part",
-        _of_delta,
-        (-180.0, 180.0),
-        2.0 * np.pi,
-        longer="Delta (ellipsometry)",
+        "delta", "delta", "rad", _OF_DELTA, _of_delta, _PHASE, _TURN, longer="Delta (ellipsometry)"
     ),
 )
 """What is computed of the light when somebody asks for it."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from optipath.errors import Fault, OptipathError
 from optipath.values.angles import CosSin
-from optipath.values.arrays import broadcast_fault, place_text
+from optipath.values.arrays import broadcast_fault, joint_shape, place_text
 from optipath.values.curve_value import CurveValue
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.operands import NOTHING, Operand
@@ -80,18 +80,16 @@ class Agreement:
         shapes = {str(place): array.shape for place, array in enumerate(arrays)}
         if any(array.dtype.kind not in "iuf" for array in arrays) or broadcast_fault(shapes):
             return ""
-        result = self._first_misfit(arrays)
-        if result is None:
+        if (result := self._first_misfit(arrays)) is None:
             return ""
         at, misfit = result
         varying = [place for place, array in enumerate(arrays) if np.any(array != array.flat[0])]
         fault = Fault.of(self.sentence(*misfit, varying=varying))
-        shape = np.broadcast_shapes(*(array.shape for array in arrays))
+        shape = joint_shape(*(array.shape for array in arrays))
         if (count := math.prod(shape)) == 1:
             return fault
-        return fault.but(
-            reason=f"{fault.reason} ({place_text(shape, at).strip()}, of {count} paths)"
-        )
+        which = f" ({place_text(shape, at).strip()}, of {count} paths)"
+        return fault.but(reason=fault.reason + which)
 
     def _first_misfit(self, arrays: list[Any]) -> tuple[int, list[float]] | None:
         """Return the first path whose numbers do not fit, and these; None where all do."""

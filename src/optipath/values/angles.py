@@ -174,10 +174,6 @@ def warn_of_degrees(what: str, value: Any, place: Callable[[Any], Any] | None = 
     """
     if type(value) is float and (-TURN <= value <= TURN or math.isinf(value)):
         return
-    if type(value) is np.ndarray and value.dtype.char in "fd" and value.size:
-        some = value if value.size <= _LOOKED_AT else value.flat[:: 1 + value.size // _LOOKED_AT]
-        if some.min() >= -TURN and some.max() <= TURN:
-            return
     numbers = _plain_numbers(value)
     beyond = np.abs(numbers) > TURN
     if place is not None:

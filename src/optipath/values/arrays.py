@@ -212,10 +212,7 @@ def refuse_too_large(
 
 @contextmanager
 def enough_for(
-    batch: tuple[int, ...],
-    each: int,
-    cure: str = CURE,
-    error: type[OptipathError] = ShapeError,
+    batch: tuple[int, ...], each: int, cure: str = CURE, error: type[OptipathError] = ShapeError
 ) -> Iterator[None]:
     """Do what takes memory for each path of a batch, if there is enough of it."""
     refuse_too_large(batch, each, cure, error)
@@ -303,7 +300,7 @@ def same(first: Any, second: Any) -> bool:
         return first.keys() == second.keys() and all(same(first[key], second[key]) for key in first)
     try:
         if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
-            return np.array_equal(np.asarray(first), np.asarray(second))
+            return np.array_equal(first, second)
         return bool(first == second)
     except Exception:  # noqa: BLE001 - what cannot be compared is not the same
         return False
@@ -327,17 +324,12 @@ _NUMBER = (float, int, complex, np.number)
 
 
 def numbers_for(
-    what: str,
-    value: Any,
-    parse: Callable[[str], Any],
-    error: type[OptipathError] = ValueFault,
+    what: str, value: Any, parse: Callable[[str], Any], error: type[OptipathError] = ValueFault
 ) -> Any:
     """Return a value with the number in place of each text that stands for one."""
     if isinstance(value, str):
         return _number(what, value, parse, error)
     if not isinstance(value, (list, tuple, np.ndarray, np.generic)):
-        return value
-    if isinstance(value, (np.ndarray, np.generic)) and value.dtype.kind not in "UO":
         return value
     try:
         array = as_argument(what, value)

@@ -100,16 +100,15 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
 def column_for(parameter: Parameter, path: str) -> list[str]:
     """Return the texts of the column that is a parameter's: of its name, or the only one."""
     name = parameter.name
-    columns = columns_of(path, [name])
-    names = [column.name for column in columns]
-    if len(columns) > 1 and name not in names:
-        why = f"of the columns {listed(names)}, none is called '{name}'{did_you_mean(name, names)}"
-        raise ParameterError(why, about=path)
-    column = columns[names.index(name) if name in names else 0]
-    if column.name in parameter.all_words:
-        why = f"'{column.name}' is the first line, which is a name; begin with the line '{name}'"
-        raise ParameterError(why, about=path)
-    if fault := missing_unit(column, parameter):
+    columns = {column.name: column for column in columns_of(path, [name])}
+    names = [*columns]
+    column = columns.get(name, columns[names[0]])
+    fault = missing_unit(column, parameter)
+    if len(names) > 1 and name not in names:
+        fault = f"none of the columns {listed(names)} is '{name}'{did_you_mean(name, names)}"
+    elif column.name in parameter.all_words:
+        fault = f"'{column.name}' is the first line, which is a name; begin with the line '{name}'"
+    if fault:
         raise ParameterError(fault, about=path)
     return [*column.texts]
 

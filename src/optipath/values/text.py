@@ -15,11 +15,11 @@ from optipath.values.parameters import ABSENT, AXES
 from optipath.values.units import (
     BASE_UNITS,
     NUMBER,
-    UNITS,
     dimension_of,
     in_unit,
     ratio_of,
     unit_of,
+    units_of,
 )
 from optipath.values.use import axes_for
 
@@ -121,11 +121,9 @@ def _read(entry: Any, parameter: Parameter, unit: str, uses: Sequence[Use]) -> _
 def _common_unit(entries: Sequence[_Entry], parameter: Parameter) -> str:
     """Return the unit of the first; that of the parameter for photon energies among lengths."""
     first = entries[0].unit
-    if all(each.unit == first for each in entries):
+    if first in units_of(dimension_of(parameter.unit)):
         return first
-    known = UNITS.get(first)
-    of_dimension = known is not None and known.dimension == dimension_of(parameter.unit)
-    return first if of_dimension else parameter.unit
+    return first if all(each.unit == first for each in entries) else parameter.unit
 
 
 _FILE = "@"
@@ -148,13 +146,12 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
         except OptipathError as fault:
             raise ParameterError(*[each.under(fault.about) for each in fault.faults]) from None
     try:
-        if "," in text:
-            parts = _listed(text)
-            for part in parts:
-                if ":" in part:
-                    _is_ratio(parameter, part)
-            return parts
-        return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
+        if "," not in text:
+            return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
+        for part in (parts := _listed(text)):
+            if ":" in part:
+                _is_ratio(parameter, part)
+        return parts
     except UnitError as fault:
         where = f"parameter '{parameter.name}'"
         raise ParameterError(*[each.under(where) for each in fault.faults]) from None
