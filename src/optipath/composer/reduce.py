@@ -147,9 +147,8 @@ def left_out(program: Program) -> tuple[Program, list[str]]:
 
 def number_of(operand: Operand) -> float | None:
     """Return the one real number that an operand is known to be; None for all else."""
-    quickly = operand.known_float
-    if quickly is not None:
-        return quickly
+    if type(operand.value) is float and operand.part in ("value", "real"):
+        return operand.value
     if not operand.known or operand.traced or operand.part == "present":
         return None
     numbers = operand.numbers({})

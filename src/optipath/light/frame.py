@@ -18,8 +18,6 @@ from optipath.values.arrays import Unchanging, as_argument, check_broadcast, loc
 from optipath.values.precision import Array, as_doubles, doubles, rounding_of
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy.typing as npt
 
 
@@ -72,17 +70,14 @@ class Frame(Unchanging):
             raise FrameError(
                 f"the rounding of a frame is {shown(rounding)}; give one within 0 .. {_COARSEST}"
             )
-        given = zip("xyz", (x, y, z), strict=True)
-        read = [vectors(f"axis {name} of a frame", axis) for name, axis in given]
-        axes, roundings = zip(*read, strict=True)
-        self._set(axes, max(float(rounding), *roundings))
-
-    def _set(self, axes: Sequence[npt.NDArray[np.float64]], rounding: float) -> None:
-        """Check axes and keep them; those that are off by their rounding are made orthogonal."""
+        named = {"x": x, "y": y, "z": z}
+        read = {name: vectors(f"axis {name} of a frame", axis) for name, axis in named.items()}
         try:
-            check_broadcast({n: axis.shape[:-1] for n, axis in zip("xyz", axes, strict=True)})
+            check_broadcast({name: axis.shape[:-1] for name, (axis, _) in read.items()})
         except ShapeError as fault:
             raise FrameError(f"axes of a frame: {fault}") from None
+        axes, roundings = zip(*read.values(), strict=True)
+        rounding = max(float(rounding), *roundings)
         x, y, z = np.broadcast_arrays(*axes)
         off = _check(np.stack([x, y, z], axis=-2), max(_TOLERANCE, 2.0 * rounding))
         # What is orthogonal stays as it is, so that copies are equal.
@@ -180,9 +175,7 @@ class Frame(Unchanging):
             raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
         check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
         axes = [np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z)]
-        frame = Frame.__new__(Frame)
-        frame._set(axes, max(self.rounding, rounding))  # noqa: SLF001 - its own
-        return frame
+        return Frame(*axes, max(self.rounding, rounding))
 
     def reversed(self) -> Frame:
         """Return the frame of light that goes back along this one: (x, -y, -z).

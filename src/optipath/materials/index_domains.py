@@ -12,9 +12,9 @@ import numpy.typing as npt
 from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
 from optipath.materials.material import LEAST, K, Material, RealPart, index_of
 from optipath.values.arrays import first_place, read_only
-from optipath.values.domains import Domain, in_unit_of, is_real
+from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import namespace
-from optipath.values.precision import held
+from optipath.values.precision import held, real_number
 
 
 class Followed(Domain):
@@ -139,7 +139,8 @@ class IndexDomain(_IndexOrMaterial):
         return inside and n < math.inf and k < math.inf
 
     def read(self, owner: str, value: Any) -> Any:
-        if isinstance(value, (list, tuple)) and len(value) == 2 and all(map(is_real, value)):
+        numbers = map(real_number, value) if isinstance(value, (list, tuple)) else ()
+        if len(pair := [*numbers]) == 2 and None not in pair:
             n, k = value
             cure = Cure(
                 f"write {n}{k:+}j for one index, np.array([{n}, {k}]) for two paths",

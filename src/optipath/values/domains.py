@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NoReturn
 
@@ -254,16 +253,6 @@ class ExtinctionDomain(Domain):
             f"a real {self.name} of {self.minimum} or more, or infinity (a BeamSplitter does not "
             f"polarise)"
         )
-
-
-_REAL = (float, int, np.floating, np.integer)
-_LARGEST = sys.float_info.max
-
-
-def is_real(number: Any) -> bool:
-    """Tell whether something is a finite real number, and no array of it."""
-    of_type = isinstance(number, _REAL) and not isinstance(number, bool)
-    return of_type and -_LARGEST <= number <= _LARGEST
 
 
 class WholeNumber(Domain):

@@ -132,15 +132,6 @@ class Operand:
         return np.asarray(self.evaluated(NUMPY, raw))
 
     @property
-    def known_float(self) -> float | None:
-        """The number that it is, if it comes of a plain float; None for all else."""
-        if type(self.value) is not float or isinstance(self.part, int):
-            return None
-        if self.part in ("value", "real"):
-            return self.value
-        return float(self.numbers()) if self.part in ("cos", "sin", "imag") else None
-
-    @property
     def span(self) -> tuple[float, float]:
         """The least and the largest number that it can be, as far as that is known."""
         if self.traced or self.part == "present":
@@ -161,16 +152,17 @@ class Operand:
         """Return what equal operands share; a large array is equal to itself alone."""
         if type(self.value) is float and self.value:
             return self.value, self.part
-        if isinstance(self.value, Parameter):
-            return self.value.name, self.value.scale, self.value.offset, self.part
-        if isinstance(self.value, (int, float, complex)):
-            return repr(complex(self.value)), self.part
-        if isinstance(self.value, np.ndarray) and self.value.nbytes <= _COMPARED:
-            value = self.value
+        value = self.value
+        if isinstance(value, Parameter):
+            return value.name, value.scale, value.offset, self.part
+        if isinstance(value, (int, float, complex)):
+            return repr(complex(value)), self.part
+        if not isinstance(value, np.ndarray):
+            return None
+        if value.nbytes <= _COMPARED:
             return value.tobytes(), value.dtype.str, value.shape, self.part, self.tail
         # Whoever keeps the key keeps the operand as well, so that no other array gets this number.
-        is_array = isinstance(self.value, np.ndarray)
-        return (id(self.value), self.part, self.tail) if is_array else None
+        return id(value), self.part, self.tail
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Operand):

@@ -148,13 +148,13 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     try:
         if "," not in text:
             return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
-        for part in (parts := _listed(text)):
+        parts = _listed(text)
+        for part in parts:
             if ":" in part:
                 _is_ratio(parameter, part)
-        return parts
     except UnitError as fault:
-        where = f"parameter '{parameter.name}'"
-        raise ParameterError(*[each.under(where) for each in fault.faults]) from None
+        raise ParameterError(*[each.under(parameter.called) for each in fault.faults]) from None
+    return parts
 
 
 def _listed(text: str) -> list[str]:
