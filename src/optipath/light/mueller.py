@@ -383,7 +383,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         frames = mirrored("frame_out"), mirrored("frame_in")
         matrix = reciprocal(self.matrix)
-        return self.of(matrix, *frames, lambda _: self.noise, given=self.is_given)
+        return self.of(matrix, *frames, noise=lambda _: self.noise, given=self.is_given)
 
     def to(self, convention: str) -> Array:
         """Return the matrices as other software writes them, of shape (..., 4, 4).
@@ -482,7 +482,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         frames = other._cached_frame("frame_in"), self._cached_frame("frame_out")
         noise = noise_of_product(*((m.matrix, m.noise) for m in (self, other)))
         product = product.astype(coarser(matrix, before), copy=False)
-        return Mueller.of(product, *frames, noise, given=self.is_given or other.is_given)
+        return Mueller.of(product, *frames, noise=noise, given=self.is_given or other.is_given)
 
     def __rmatmul__(self, other: object) -> NoReturn:
         """Refuse what has no frames."""
@@ -513,7 +513,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
             self._part_of_frame(name, self.shape, change) for name in ("frame_in", "frame_out")
         )
         matrix = flat.reshape(*flat.shape[:-1], 4, 4)
-        return Mueller.of(matrix, *frames, lambda _: change(self.noise), given=self.is_given)
+        return Mueller.of(matrix, *frames, noise=lambda _: change(self.noise), given=self.is_given)
 
     def _over_m00(self, entries: Array) -> Array:
         """Return entries over M00; NaN where that is no more than noise."""

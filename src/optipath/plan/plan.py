@@ -237,7 +237,7 @@ class Plan:
         ends = program.sources[begin][1], program.readings[end].frame
         frames = (self.answers.framed(frame, parameters) for frame in ends)
         noise = partial(matrix_noise_at, self.answers, begin, end, parameters)
-        return Mueller.of(matrix, *frames, noise)
+        return Mueller.of(matrix, *frames, noise=noise)
 
     def paths(
         self,
