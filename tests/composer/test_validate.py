@@ -230,7 +230,7 @@ def test_light_that_passes_a_beam_splitter_keeps_its_frame():
 
 def test_frames_that_break_snells_law_or_are_missing_are_told():
     path = window(transmitted=MEETS.arriving)
-    with pytest.raises(op.PathError, match=r"'pane\.transmitted' is turned by 0 deg .* 14\.6"):
+    with pytest.raises(op.PathError, match=r"'pane\.transmitted' turn light by 0 deg, .* 14\.6"):
         path.check()
     path = window(index=op.Parameter("n"))
     path.add("behind", op.Detector())

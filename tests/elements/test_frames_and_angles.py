@@ -102,7 +102,7 @@ def test_values_that_are_given_late_are_held_to_the_frames_as_constants_are(n, t
     light = path.trace(n=1.5, t="45 deg")
     assert light.intensity == pytest.approx(1 - 0.7 * s - 0.3 * p, abs=1e-7)
     path.trace(n=np.float32([1.5, 1.5]), t=np.float32(np.pi / 4))
-    words = f"is turned by 16.8744943 deg in the world, but by {turned} deg by Snell's law"
+    words = f"turn light by 16.8744943 deg, but by {turned} deg by Snell's law"
     late = fault_of(path.trace, n=n, t=t)
     assert words in late
     assert f"{t} (parameter 't'), n = {n} (parameter 'n')" in late

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import product
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -75,8 +76,9 @@ class BoundaryElement(MediaOfBoundary, FourPort):
         return face.incidence, face.outside if before is None else before
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
-        face: Any = self
-        parts = self.lit_behind.parts(self.media_fields[1], face.index) if port == "back" else []
+        if port != "back":
+            return []
+        parts = self.lit_behind.parts(self.media_fields[1], self.medium_at("back"))
         return [Use(f"{owner}.{name}", value, domain) for name, value, domain in parts]
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
@@ -106,8 +108,7 @@ def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Fr
     arriving, reflected = frames["in"], frames["reflected"]
     front, behind = (np.asarray(angle)[..., np.newaxis] for angle in angles)
     # Along the surface, and out of it.
-    along, normal = arriving.z + reflected.z, reflected.z - arriving.z
-    along, normal = (_unit(vector) for vector in (along, normal))
+    along, normal = _unit(arriving.z + reflected.z), _unit(reflected.z - arriving.z)
     z = np.where(front > 0.0, np.sin(behind) * along, 0.0) - np.cos(behind) * normal
     frame = Frame.from_direction(z, arriving.x)
     rounding = max(arriving.rounding, reflected.rounding)
@@ -131,8 +132,7 @@ def _known_angles(element: Any) -> tuple[Any, Any] | None:
 
 
 _BOUNCES = ("in", "reflected"), ("back", "transmitted")
-_PASSES = ("in", "transmitted"), ("back", "reflected")
-"""By which ports light goes that is turned back, or is let through."""
+"""By which ports light goes that is turned back; it is let through by any others."""
 
 _ROUNDING = 1e-7
 """How far apart two angles may be, in radians."""
@@ -171,35 +171,27 @@ class WorldAngle(Agreement):
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.
-        result, *argument = numbers
-        front, behind = angles_of(np, *argument)
-        there, expected = _degrees(result), _degrees(self._expected(front, behind))
+        result, incidence, *indices = numbers
+        front, behind = angles_of(np, incidence, *indices)
+        expected = _degrees(self._expected(front, behind))
         given = [
             f"{'k' if o.part == 'imag' else 'n'} = {text_of(o, number)}"
-            for o, number in zip(self.operands[2:], argument[1:], strict=True)
+            for o, number in zip(self.operands[2:], indices, strict=True)
             if not o.known and (o.part != "imag" or number != 0.0)
         ]
         if not self.operands[1].known:
-            given.insert(0, text_of(self.operands[1], math.degrees(argument[0]), " deg"))
+            given.insert(0, text_of(self.operands[1], math.degrees(incidence), " deg"))
+        what, law = "meet at an incidence of", f"by the values of '{self.owner}' it is {expected}"
+        if (self.enters, self.leaves) not in _BOUNCES:
+            what, law = "turn light by", f"by {expected} by Snell's law"
         by = f" ({', '.join(given)})" if given else ""
-        if self._is_passing:
-            return (
-                f"light from '{self.owner}.{self.enters}' to '{self.owner}.{self.leaves}' is "
-                f"turned by {there} in the world, but by {expected} by Snell's law{by}; "
-                f"make them agree"
-            )
         return (
-            f"the frames of '{self.owner}.{self.enters}' and '{self.owner}.{self.leaves}' meet at "
-            f"an incidence of {there}, but by the values of '{self.owner}' it is {expected}{by}; "
-            f"make them agree"
+            f"the frames of '{self.owner}.{self.enters}' and '{self.owner}.{self.leaves}' {what} "
+            f"{_degrees(result)}, but {law}{by}; make them agree"
         )
 
-    @property
-    def _is_passing(self) -> bool:
-        return (self.enters, self.leaves) in _PASSES
-
     def _expected(self, front: Any, behind: Any) -> Any:
-        if self._is_passing:
+        if (self.enters, self.leaves) not in _BOUNCES:
             return abs(front - behind)
         return front if self.enters == "in" else behind
 
@@ -209,7 +201,7 @@ def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Itera
     argument = operands_of(element)
     if any(operand.value is FOLLOWS for operand in argument):
         return  # What it takes over is looked at.
-    for enters, leaves in (*_BOUNCES, *_PASSES):
+    for enters, leaves in product(element.inputs, element.outputs):
         if {enters, leaves} <= frames.keys():
             first, second = frames[enters], frames[leaves]
             bounces, needed = (enters, leaves) in _BOUNCES, argument
@@ -219,9 +211,8 @@ def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Itera
                 clear = [operand_of(number) for number in (1.0, 0.0)]
                 front = argument[1:3] if len(argument) > 5 else clear
                 needed = (argument[0], *front, *clear, *argument[5:])
-            yield WorldAngle(
-                (operand_of(angle), *needed), owner, enters, leaves, first.rounding_to(second)
-            )
+            operands = (operand_of(angle), *needed)
+            yield WorldAngle(operands, owner, enters, leaves, first.rounding_to(second))
 
 
 def operands_of(element: Any) -> tuple[Operand, ...]:

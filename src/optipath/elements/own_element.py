@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 import numpy as np
 
 from optipath.elements.coupling import Coupling, numbers_of
-from optipath.errors import PathError, ValueFault, listed, shown
+from optipath.errors import PathError, ValueFault, collecting, listed, shown
 from optipath.kernels.carriers.structures import FULL
 from optipath.kernels.kernel import Kernel, KernelFamily, called, guarded
 from optipath.kernels.primitives import NUMPY
@@ -66,8 +66,7 @@ class OwnWays:
     @property
     def units(self) -> dict[str, str]:
         """The unit of each parameter among them that is given when a path runs."""
-        open_ones = [operand.value for operand in self.operands if not operand.known]
-        return {parameter.name: parameter.unit for parameter in open_ones}
+        return {o.value.name: o.value.unit for o in self.operands if not o.known}
 
     def are_known(self, arguments: Collection[str] = ()) -> bool:
         """Tell whether all of them are numbers already, with those of parameters that are given."""
@@ -80,47 +79,40 @@ class OwnWays:
         """Return what is wrong with what they do to light: for which path, and in words."""
         single = any(np.any(is_single(np, read(operand))) for operand in self.operands)
         tolerance = tolerance_of(float(np.finfo(np.float32).eps) if single else 0.0)
-        matrices: list[Array] = []
-        results: list[tuple[int, str]] = []
-        for coupling in self.couplings:
-            with np.errstate(all="ignore"):
-                if coupling.enters is not None:
-                    matrices.append(coupling.matrix(self.method, read))
-                    results += self._matrix_faults(matrices[-1].reshape(-1, 4, 4), tolerance)
-                elif coupling.operations:
-                    light = self._emitted(coupling.operations[0], read)
-                    results += self._emission_faults(light.astype(np.float32 if single else float))
-        return results or self._sum_faults(matrices, tolerance)
+        with np.errstate(all="ignore"):
+            if self.couplings[0].enters is None:
+                kind = np.float32 if single else np.float64
+                begun = [c.operations[0] for c in self.couplings if c.operations]
+                return [one for each in begun for one in self._emission_faults(each, read, kind)]
+            matrices = [coupling.matrix(self.method, read) for coupling in self.couplings]
+            results = [one for m in matrices for one in self._matrix_faults(m, tolerance)]
+            return results or self._sum_faults(matrices, tolerance)
 
-    def _emitted(self, operation: Any, read: Callable[[Operand], Any]) -> Array:
-        """Return the light that begins here, shape (..., 4)."""
-        numbers = operation.numbers(NUMPY, lambda a: read(operand_of(a)), self.method)
-        return np.stack(np.broadcast_arrays(*numbers), axis=-1)
-
-    def _matrix_faults(self, several: Array, tolerance: float) -> list[tuple[int, str]]:
-        finite = np.isfinite(several).all(axis=(1, 2))
-        if not finite.all():
-            place = int(np.argmin(finite))
-            text = (
-                f"{self._with_matrix(several[place])}, which is not finite; keep divisors from 0 "
-                f"and roots from negative numbers, as in x / xp.where(d == 0.0, 1.0, d)"
-            )
-            return [(place, text)]
-        if self.element.physical is False or (passive := are_passive(several, tolerance)).all():
-            return []
-        place = int(np.argmin(passive))
-        problem, cure = problem_of(several[place], tolerance), cure_of(several, tolerance)
-        text = f"{self._with_matrix(several[place])}, which {problem}; mend its rows, to {cure}"
-        return [(place, f"{text} perhaps, or {_TAKEN}")]
+    def _matrix_faults(self, matrices: Array, tolerance: float) -> list[tuple[int, str]]:
+        several = matrices.reshape(-1, 4, 4)
+        fine = np.isfinite(several).all(axis=(1, 2))
+        problem = (
+            "is not finite; keep divisors from 0 and roots from negative numbers, as in "
+            "x / xp.where(d == 0.0, 1.0, d)"
+        )
+        if fine.all():
+            if self.element.physical is False or (fine := are_passive(several, tolerance)).all():
+                return []
+            cure = f"mend its rows, to {cure_of(several, tolerance)} perhaps, or {_TAKEN}"
+            problem = f"{problem_of(several[np.argmin(fine)], tolerance)}; {cure}"
+        place = int(np.argmin(fine))
+        rows = (", ".join(f"{number:.6g}" for number in row) for row in several[place])
+        text = f"{self._named()} has the Mueller matrix ({'), ('.join(rows)}), which {problem}"
+        return [(place, text)]
 
     def _sum_faults(self, matrices: list[Array], tolerance: float) -> list[tuple[int, str]]:
         """Say that several ways, of which each is one, let out more light than comes in."""
         if len(matrices) < 2 or self.element.physical is False:
             return []
         times = np.ravel(gain(sum(np.broadcast_arrays(*matrices), np.zeros((4, 4)))))
-        if not np.any(times > 1.0 + tolerance):
-            return []
         place = int(np.argmax(times))
+        if not times[place] > 1.0 + tolerance:
+            return []
         ports = listed([f"'{coupling.leaves}'" for coupling in self.couplings])
         text = (
             f"{self._named()} lets out up to {times[place]:.6g} times the light that comes in at "
@@ -129,20 +121,19 @@ class OwnWays:
         )
         return [(place, text)]
 
-    def _emission_faults(self, stokes: Array) -> list[tuple[int, str]]:
+    def _emission_faults(
+        self, operation: Any, read: Callable[[Operand], Any], kind: Any
+    ) -> list[tuple[int, str]]:
         if self.element.physical is False:
             return []
-        bad = np.flatnonzero(~_EMITTED.allows(stokes.reshape(-1, 4)))
-        for place in bad[:1]:
-            try:
-                _EMITTED.check(f"the light of {self._named()}", stokes.reshape(-1, 4)[place])
-            except ValueFault as fault:
-                return [(int(place), str(fault))]
-        return []
-
-    def _with_matrix(self, matrix: Array) -> str:
-        rows = (", ".join(f"{number:.6g}" for number in row) for row in matrix)
-        return f"{self._named()} has the Mueller matrix ({'), ('.join(rows)})"
+        numbers = operation.numbers(NUMPY, lambda a: read(operand_of(a)), self.method)
+        lights = np.stack(np.broadcast_arrays(*numbers), axis=-1).reshape(-1, 4).astype(kind)
+        faults: list[str] = []
+        bad = np.flatnonzero(~_EMITTED.allows(lights))[:1].tolist()
+        for place in bad:
+            with collecting(faults, ValueFault):
+                _EMITTED.check(f"the light of {self._named()}", lights[place])
+        return [(place, fault) for place, fault in zip(bad, faults, strict=False)]
 
     def _named(self) -> str:
         name, text = type(self.element).__name__, shown(self.element)
@@ -177,10 +168,14 @@ def _faults(what: str, element: Any, results: tuple[Any, ...]) -> Iterator[str]:
     names = {parameter.name for parameter in element.parameters()}
     for coupling in results:
         way = enters, leaves = coupling.enters, coupling.leaves
-        if enters is not None and enters not in element.inputs:
-            yield f"{what} lead from {shown(enters)}; its inputs are {_ports(element.inputs)}"
-        if leaves not in element.outputs:
-            yield f"{what} lead to {shown(leaves)}; its outputs are {_ports(element.outputs)}"
+        for word, port, which in (("from", enters, "inputs"), ("to", leaves, "outputs")):
+            ports = getattr(element, which)
+            if port not in ports and not (which == "inputs" and port is None):
+                yield (
+                    f"{what} lead {word} {shown(port)}; its {which} are "
+                    f"{listed([shown(one) for one in ports]) or 'none'}, and mueller_rows lead "
+                    f"from 'in' to 'out'; name one of these"
+                )
         if way in known:
             yield f"{what} lead from {shown(enters)} to {shown(leaves)} more than once"
         known.append(way)
@@ -201,11 +196,6 @@ def _misfits(coupling: Any) -> Iterator[Any]:
             yield operation.kernel
         elif not isinstance(operation.arguments, (tuple, list)):
             yield operation.arguments
-
-
-def _ports(ports: tuple[str, ...]) -> str:
-    named = listed([shown(port) for port in ports]) or "none"
-    return f"{named}, and mueller_rows lead from 'in' to 'out'; name one of these"
 
 
 def _operation_faults(what: str, operation: Operation, names: set[str]) -> Iterator[str]:
@@ -250,18 +240,16 @@ def class_faults(element_class: type[Any], base: type[Any], kind: Any) -> Iterat
                 f"write {what} where that is meant, or give it another name"
             )
     for which in ("inputs", "outputs", "mirrored"):
-        ports = getattr(element_class, which)
-        are_names = isinstance(ports, (tuple, list)) and all(isinstance(p, str) for p in ports)
-        if which not in own and ports is not None and not are_names:
-            what = "fields" if which == "mirrored" else "ports"
-            yield f"{which} of element class {name} must be names of {what}, not {shown(ports)}"
-    values = [field for field in own if field != TURN]
-    said = vars(element_class).get("mirrored")
-    for field in said if isinstance(said, (tuple, list)) and "mirrored" not in own else ():
-        if isinstance(field, str) and field not in values:
-            why = "whose links say how it is turned" if field == TURN else "which is no field of it"
-            yield f"mirrored of element class {name} names '{field}', {why}; take it out"
+        names, what = getattr(element_class, which), "fields" if which == "mirrored" else "ports"
+        if which in own or names is None:
+            continue
+        if not isinstance(names, (tuple, list)) or not all(isinstance(n, str) for n in names):
+            yield f"{which} of element class {name} must be names of {what}, not {shown(names)}"
+        elif which == "mirrored" and (odd := [n for n in names if n == TURN or n not in own]):
+            why = "whose links say how it is turned" if TURN in odd else "which is no field of it"
+            yield f"mirrored of element class {name} names '{odd[0]}', {why}; take it out"
     if "mueller_rows" in vars(element_class):
+        values = [field for field in own if field != TURN]
         yield from _rows_faults(name, vars(element_class)["mueller_rows"], values)
 
 
@@ -300,8 +288,19 @@ class RowsFactory:
         return guarded(what, xp, lambda own: partial(self._numbers, what, own))
 
     def _numbers(self, what: str, xp: Primitives, *values: Any) -> tuple[Any, ...]:
-        entries = _entries(what, self.rows_of(xp, *map(_unchanging, values)), values)
-        _check_shapes(what, entries, values)
+        paths = np.broadcast_shapes(*map(_shape, values))
+        entries = _entries(what, self.rows_of(xp, *map(_unchanging, values)), paths)
+        for entry in entries:
+            if entry is None or isinstance(entry, (str, bytes, list, tuple, dict)):
+                raise PathError(f"{what} gives the entry {shown(entry)}; give numbers")
+        if any(map(_is_complex, entries)):
+            entries = _real(what, entries, values)
+        for shape in filter(None, map(_shape, entries)):
+            if len(shape) > len(paths) or broadcast_fault({"": shape, "paths": paths}):
+                raise PathError(
+                    f"{what} gives an entry of shape {shape} for paths of shape {paths}; compute "
+                    f"each entry of its arguments alone, elementwise"
+                )
         return entries
 
 
@@ -316,55 +315,40 @@ def _unchanging(value: Any) -> Any:
     return view
 
 
-def _check_shapes(what: str, entries: tuple[Any, ...], values: tuple[Any, ...]) -> None:
-    """Refuse arrays that are not over the paths that the values are given for."""
-    paths = np.broadcast_shapes(*(getattr(value, "shape", ()) for value in values))
-    for entry in entries:
-        shape = getattr(entry, "shape", ())
-        if shape and (len(shape) > len(paths) or broadcast_fault({"": shape, "paths": paths})):
-            raise PathError(
-                f"{what} gives an entry of shape {shape} for paths of shape {paths}; compute each "
-                f"entry of its arguments alone, elementwise"
-            )
+def _shape(value: Any) -> tuple[int, ...]:
+    return getattr(value, "shape", ())
 
 
-def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the sixteen numbers of four rows, which are for the paths of some values."""
+def _entries(what: str, rows: Any, paths: tuple[int, ...]) -> tuple[Any, ...]:
+    """Return the sixteen entries of four rows, which are for paths of a shape."""
+    results = []
     if isinstance(rows, np.ndarray):
-        _check_array(what, rows, values, (4, 4))
+        _check_array(what, rows, paths, (4, 4))
         rows = np.asarray(rows)
     try:
-        results = []
         # Each row before the next, which may be a generator that knows one at a time.
         for row in rows:
-            _check_array(what, row, values, (4,))
+            _check_array(what, row, paths, (4,))
             results.append(tuple(row))
     except TypeError:
         results = []
     if [len(row) for row in results] != [4] * 4:
         raise PathError(f"{what} must return four rows of four entries, not {shown(rows)}")
-    entries = tuple(entry for row in results for entry in row)
-    for entry in entries:
-        if entry is None or isinstance(entry, (str, bytes, list, tuple, dict)):
-            raise PathError(f"{what} gives the entry {shown(entry)}; give numbers")
-    return _real(what, entries, values) if any(map(_is_complex, entries)) else entries
+    return tuple(entry for row in results for entry in row)
 
 
-def _check_array(what: str, argument: Any, values: tuple[Any, ...], shape: tuple[int, ...]) -> None:
+def _check_array(what: str, argument: Any, paths: tuple[int, ...], shape: tuple[int, ...]) -> None:
     """Refuse an array in place of rows, or of a row, that may have paths among its axes."""
-    own = getattr(argument, "shape", ())
-    many = " for many paths" if any(getattr(value, "shape", ()) for value in values) else ""
+    own = _shape(argument)
     # Of four paths, it may have the right shape all the same.
-    if own and (many or own != shape):
+    if own and (paths or own != shape):
         raise PathError(
-            f"{what} gives an array of shape {own}{many}; return four rows, tuples of four "
-            f"entries each, which may be arrays over paths"
+            f"{what} gives an array of shape {own}{' for many paths' if paths else ''}; return "
+            f"four rows, tuples of four entries each, which may be arrays over paths"
         )
 
 
 def _is_complex(entry: Any) -> bool:
-    if type(entry) is float:
-        return False
     kind = getattr(entry, "dtype", None)
     return isinstance(entry, complex) or (kind is not None and kind.kind == "c")
 
@@ -374,14 +358,15 @@ def _real(what: str, entries: tuple[Any, ...], values: tuple[Any, ...]) -> tuple
     if not any(map(is_traced, entries)):
         kinds = {np.dtype(getattr(n, "dtype", np.float64)) for n in (*entries, *values)}
         rounding = max(float(np.finfo(kind).eps) for kind in kinds if kind.kind in "fc")
-        largest = np.max(np.broadcast_arrays(*map(np.abs, entries)), axis=0)
-        for place, entry in enumerate(entries):
-            if np.any(abs(np.imag(entry)) > _ROUNDINGS * rounding * largest):
-                row, column = divmod(place, 4)
-                raise PathError(
-                    f"{what} gives the complex entry [{row}][{column}] = {shown(entry)}; a Mueller "
-                    f"matrix is real: return .real, or abs(z)**2, where that is what is meant"
-                )
+        numbers = np.array(np.broadcast_arrays(*entries), complex)
+        off = np.abs(numbers.imag) > _ROUNDINGS * rounding * np.abs(numbers).max(axis=0)
+        if off.any():
+            place = int(np.nonzero(off)[0][0])
+            raise PathError(
+                f"{what} gives the complex entry [{place // 4}][{place % 4}] = "
+                f"{shown(entries[place])}; a Mueller matrix is real: return .real, or abs(z)**2, "
+                f"where that is what is meant"
+            )
     return tuple(entry.real if _is_complex(entry) else entry for entry in entries)
 
 
@@ -424,12 +409,11 @@ def _annotated(hint: Any) -> Iterator[Domain]:
 
 def same_value(first: Any, second: Any, domain: Domain) -> bool:
     """Tell whether two values of a field are equal, however an index is written."""
-    listed = domain.of_entries if isinstance(domain, RowDomain) else None
-    if listed is not None and isinstance(first, tuple) and isinstance(second, tuple):
-        return len(first) == len(second) and all(
-            same_value(one, other, listed) for one, other in zip(first, second, strict=True)
-        )
+    each = domain.of_entries if isinstance(domain, RowDomain) else None
+    if each is not None and isinstance(first, tuple) and isinstance(second, tuple):
+        pairs = zip(first, second, strict=False)
+        return len(first) == len(second) and all(same_value(*pair, each) for pair in pairs)
     if same(first, second) or not domain.complex_parts:
         return same(first, second)
     pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)
-    return all(same(one, other) for one, other in pairs)
+    return all(same(*pair) for pair in pairs)
