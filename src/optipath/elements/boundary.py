@@ -23,7 +23,7 @@ from optipath.values.operands import Operand, operand_of
 from optipath.values.use import Use
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Collection, Iterator, Mapping, Sequence
 
     from optipath.values.operands import Operation
 
@@ -48,14 +48,14 @@ class FourPort(Element):
     }
 
     def _ways(
-        self, front: tuple[Operation, Operation], behind: tuple[Operation, Operation]
+        self, front: Sequence[Operation], behind: Sequence[Operation]
     ) -> tuple[Coupling, ...]:
         """Return the couplings for what reflects, and what lets through, from either side."""
         return (
-            Coupling("in", "reflected", front[:1], reflects=True),
-            Coupling("in", "transmitted", front[1:]),
-            Coupling("back", "transmitted", behind[:1], reflects=True),
-            Coupling("back", "reflected", behind[1:]),
+            Coupling("in", "reflected", (front[0],), reflects=True),
+            Coupling("in", "transmitted", (front[1],)),
+            Coupling("back", "transmitted", (behind[0],), reflects=True),
+            Coupling("back", "reflected", (behind[1],)),
         )
 
 

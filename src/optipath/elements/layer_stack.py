@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 import numpy as np
 
@@ -134,12 +134,9 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side."""
-        return self._ways(
-            *(
-                (self._operation("reflected", enters), self._operation("transmitted", enters))
-                for enters in ("in", "back")
-            )
-        )
+        wanted = "reflected", "transmitted"
+        front, behind = ([self._operation(w, e) for w in wanted] for e in self.inputs)
+        return self._ways(front, behind)
 
     def absorbed(
         self,
@@ -189,15 +186,10 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         batch, operation = checked_alone(self, enters), self._operation("absorbed", enters)
         with np.errstate(all="ignore"):
             numbers = operation.numbers(NUMPY, lambda value: operand_of(value).numbers({}), method)
-            shares = [np.broadcast_to(number, batch) for number in numbers]
+            several = np.array([np.broadcast_to(number, batch) for number in numbers])
+            shares = several.reshape(len(numbers) // 2, 2, *batch)
             # From the first medium on, whichever light meets first.
-            several = shares[::2], shares[1::2]
-            s, p = (
-                np.stack(part[:: -1 if enters == "back" else 1], axis=-1)
-                if part
-                else np.empty((*batch, 0))
-                for part in several
-            )
+            s, p = np.moveaxis(shares[:: -1 if enters == "back" else 1], 0, -1)
             along: Any = 0.0
             if light is not None:
                 arriving = light if isinstance(light, Light) else Light(light)
@@ -213,12 +205,11 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         incidence, measured = self.measured
         if any(value is FOLLOWS for value in (incidence, measured, self.outside)):
             return  # What it takes over is looked at.
-        n0, lengths = numbers_of(measured, INDEX)[0], self.lengths
+        n0, lengths = numbers_of(measured, INDEX)[0], cast("tuple[Any, ...]", self.lengths)
         pairs = [numbers_of(index, INDEX) for index in self._media]
         for place in self._absorbing(pairs):
-            assert lengths is not None  # noqa: S101 - without, none is known to absorb
-            others = [number for pair in pairs[place - 1 : place + 2] for number in pair]
-            arguments = (*others, lengths[place - 1], self.wavelength, n0, incidence)
+            around = [number for pair in pairs[place - 1 : place + 2] for number in pair]
+            arguments = (*around, lengths[place - 1], self.wavelength, n0, incidence)
             yield FadingLayer(tuple(map(operand_of, arguments)), f"{owner}.indices[{place}]")
 
     def _films(self) -> Iterator[ThinLayer]:
@@ -233,28 +224,21 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     def _operation(self, wanted: str, enters: str) -> Operation:
         """Return what the stack does to light from one side."""
         pairs = [numbers_of(index, INDEX) for index in self._media]
-        absorbing, measured, last = self._absorbing(pairs), "in front", pairs[-1][1]
         lengths: Any = self.lengths
-        arguments = [(place, pairs[place][1], lengths[place - 1]) for place in absorbing]
+        layers = [(at, pairs[at][1], lengths[at - 1]) for at in self._absorbing(pairs)]
+        measured, last = "in front", pairs[-1][1]
         if enters == "back":
-            arguments = [
-                (len(pairs) - 1 - place, *of_layer) for place, *of_layer in arguments[::-1]
-            ]
+            layers = [(len(pairs) - 1 - at, k, length) for at, k, length in layers[::-1]]
             pairs, measured, last = pairs[::-1], "behind", 0.0
         before: tuple[Any, ...] = ()
         if self.incidence_in is not None:
             before, measured = numbers_of(self.incidence_in, OPTIONAL_OUTSIDE)[:1], "before"
-        places, extinctions, of_layers = zip(*arguments, strict=True) if arguments else ((), (), ())
-        numbers = (
-            *(n for n, _ in pairs),
-            last,
-            *extinctions,
-            *of_layers,
-            *([self.wavelength] if arguments else []),
-            *before,
-            *(Operand(self.incidence, part) for part in ("cos", "sin")),
-        )
-        return Operation(stack(wanted, measured, places), numbers)
+        absorption = *(k for _, k, _ in layers), *(length for *_, length in layers)
+        if layers:
+            absorption = *absorption, self.wavelength
+        angle = Operand(self.incidence, "cos"), Operand(self.incidence, "sin")
+        numbers = (*(n for n, _ in pairs), last, *absorption, *before, *angle)
+        return Operation(stack(wanted, measured, tuple(at for at, *_ in layers)), numbers)
 
     def _absorbing(self, pairs: list[tuple[Any, Any]]) -> list[int]:
         """Return the places of the layers that may absorb."""
@@ -316,7 +300,9 @@ class FadingLayer(Agreement):
             # Most are far thicker, and nobody need look at their faces.
             if np.all(enough):
                 return enough
-        left, missing = self._passing(xp, *numbers)
+        with np.errstate(all="ignore"):
+            behind = attenuation(of_module(xp))
+            left, missing = behind(n, k, length, wavelength, n0, xp.cos(angle), xp.sin(angle))
         stored = [missing + left * share for share in self._absorbed_shares(xp, *numbers)]
         gains = [share < -_ROUNDING for share in stored]
         return ~((k > 0.0) & (gains[0] | gains[1] | gains[2] | gains[3]))
@@ -336,16 +322,6 @@ class FadingLayer(Agreement):
             f"add up in so thin a layer; give a length of at least {1.001 * least * 1e9:.6g} nm, "
             f"or leave the layer out"
         )
-
-    @staticmethod
-    def _passing(xp: Any, *numbers: Any) -> tuple[Any, Any]:
-        """Return what of light is left behind the layer, and what is not."""
-        *_, n, k, _, _, length, wavelength, n0, angle = numbers
-        with np.errstate(all="ignore"):
-            left, missing = attenuation(of_module(xp))(
-                n, k, length, wavelength, n0, xp.cos(angle), xp.sin(angle)
-            )
-        return left, missing
 
     @staticmethod
     def _absorbed_shares(xp: Any, *numbers: Any) -> tuple[Any, ...]:

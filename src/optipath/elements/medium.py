@@ -180,13 +180,12 @@ class Medium(Element, kind="medium"):
         faults: list[str] = []
         numbers = []
         for name, value, domain in (("k", k, _EXTINCTION), ("wavelength", wavelength, WAVELENGTH)):
-            if isinstance(value, Parameter):
-                faults.append(
-                    f"{name} is parameter '{value.name}', but absorption is computed from it at "
-                    f"once; give a value, or give Medium a parameter for its absorption"
-                )
-                continue
             with collecting(faults, ValueFault):
+                if isinstance(value, Parameter):
+                    raise ValueFault(
+                        f"{name} is parameter '{value.name}', but absorption is computed from it "
+                        f"at once; give a value, or give Medium a parameter for its absorption"
+                    )
                 numbers.append(domain.check(name, domain.read(name, value)))
         if faults:
             raise ValueFault(*faults)
@@ -196,16 +195,12 @@ class Medium(Element, kind="medium"):
         return cls(length, absorption, **others)
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
-        """Yield every value.
-
-        Only one of the two rotations may be other than 0.
-        """
+        """Yield every value; only one of the two rotations may be other than 0."""
+        why = "stands beside a dextrorotation, the same rotation with the other sign"
+        twice = not (vanishes(self.rotation) or vanishes(self.dextrorotation))
         for name, value, domain in super().quantities():
-            if name == "rotation" and not (vanishes(value) or vanishes(self.dextrorotation)):
-                why = "stands beside a dextrorotation, the same rotation with the other sign"
-                yield name, value, Refused(name, why=why)
-            else:
-                yield name, value, domain
+            refused = twice and name == "rotation"
+            yield name, value, Refused(name, why=why) if refused else domain
 
     def agreements(self, owner: str) -> Iterator[Agreement]:
         """Yield what must fit: dichroism with the absorption, and with depolarisation."""
@@ -307,10 +302,17 @@ def operations_along(medium: Any) -> tuple[Operation, ...]:
 
     Absorption is that of the state absorbed least, so that no exponential is too large.
     """
-    linear, circular = not vanishes(medium.dichroism), not vanishes(medium.circular_dichroism)
+    dichroism = medium.dichroism, medium.circular_dichroism
+    others = medium.retardance, medium.depolarization
+    linear, circular, retards, depolarizes = [not vanishes(rate) for rate in (*dichroism, *others)]
     rotates = not (vanishes(medium.rotation) and vanishes(medium.dextrorotation))
-    retards, depolarizes = not vanishes(medium.retardance), not vanishes(medium.depolarization)
-    absorbing, length = _absorbing(medium, dichroic=linear or circular), medium.length
+    rates: tuple[Any, ...] = (medium.absorption,)
+    of_all, of_third = ABSORPTION_ALONG, THIRD_OF_ABSORPTION
+    if linear or circular:
+        rates += dichroism
+        of_all, of_third = ABSORPTION_WITH_DICHROISM, THIRD_WITH_DICHROISM
+    is_far = largest(medium.absorption) * largest(medium.length) > _FAR
+    absorbing = _along(medium, of_third if is_far else of_all, *rates) * (3 if is_far else 1)
     if depolarizes and (linear or circular):
         return *absorbing, *_together(medium, DEPOLARIZING_DICHROISM_ALONG, medium.depolarization)
     depolarizing = _along(medium, DEPOLARIZATION_ALONG, medium.depolarization)
@@ -318,29 +320,17 @@ def operations_along(medium: Any) -> tuple[Operation, ...]:
     if two_axes or ((linear or retards) and (circular or rotates)):
         at_once = _together(medium, DICHROISM_AND_RETARDANCE_ALONG)
     elif linear:
-        rates = medium.dichroism, medium.retardance, length
-        at_once = turned(medium.dichroic_axis, Operation(DICHROISM_ALONG, rates))
+        filtering = _along(medium, DICHROISM_ALONG, medium.dichroism, medium.retardance)
+        at_once = turned(medium.dichroic_axis, *filtering)
     else:
         at_once = _along(medium, ROTATION_ALONG, medium.rotation)
         at_once += _along(medium, DEXTROROTATION_ALONG, medium.dextrorotation)
         if circular:
-            rates = medium.circular_dichroism, 0.0, length
-            at_once += along_circular_axes(Operation(DICHROISM_ALONG, rates))
+            filtering = _along(medium, DICHROISM_ALONG, medium.circular_dichroism, 0.0)
+            at_once += along_circular_axes(*filtering)
         elif retards:
             at_once += turned(medium.angle, *_along(medium, RETARDANCE_ALONG, medium.retardance))
     return *absorbing, *depolarizing, *at_once
-
-
-def _absorbing(medium: Any, *, dichroic: bool) -> tuple[Operation, ...]:
-    is_far = largest(medium.absorption) * largest(medium.length) > _FAR
-    if dichroic:
-        kernel = THIRD_WITH_DICHROISM if is_far else ABSORPTION_WITH_DICHROISM
-        rates = medium.absorption, medium.dichroism, medium.circular_dichroism
-        once: tuple[Operation, ...] = (Operation(kernel, (*rates, medium.length)),)
-    else:
-        kernel = THIRD_OF_ABSORPTION if is_far else ABSORPTION_ALONG
-        once = _along(medium, kernel, medium.absorption)
-    return 3 * once if is_far else once
 
 
 def _together(medium: Any, kernel: Kernel, *first: Any) -> tuple[Operation, ...]:
@@ -351,5 +341,6 @@ def _together(medium: Any, kernel: Kernel, *first: Any) -> tuple[Operation, ...]
     return turned(medium.angle, Operation(kernel, (*first, *rates, *angles, medium.length)))
 
 
-def _along(medium: Any, kernel: Kernel, per_metre: Any) -> tuple[Operation, ...]:
-    return () if vanishes(per_metre) else (Operation(kernel, (per_metre, medium.length)),)
+def _along(medium: Any, kernel: Kernel, *rates: Any) -> tuple[Operation, ...]:
+    """Return what a kernel does by rates per metre, unless all are known to be 0."""
+    return () if all(map(vanishes, rates)) else (Operation(kernel, (*rates, medium.length)),)

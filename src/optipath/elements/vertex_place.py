@@ -54,7 +54,7 @@ class PlaceInChain:
     vertices: Any
     number: Any
     told: Any
-    counted_by: str = "reflections"
+    counted_by: str
 
     @property
     def count(self) -> int:
@@ -136,8 +136,8 @@ class Coordinates(NamedTuple):
         return *self.events, *self.arguments
 
     def passed_to(self, kernel: Kernel, *before: Any) -> Operation:
-        """Return the operation of a kernel of coordinates."""
-        return Operation(kernel, (*before, *self._coordinates(self.points)))
+        """Return the operation of a kernel of coordinates, with the events before them."""
+        return Operation(kernel, (*before, *self.events, *self._coordinates(self.points)))
 
     def planes(self, kernel: Kernel) -> Operation:
         """Return the operation of a kernel of planes of incidence, by points, or else by angles."""

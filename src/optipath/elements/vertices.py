@@ -18,6 +18,7 @@ from optipath.elements.vertex_chain import (
     vertices_back,
 )
 from optipath.elements.vertex_place import (
+    Coordinates,
     EventFits,
     Events,
     EventsDomain,
@@ -63,6 +64,7 @@ class ChainVertex(MediaOfBoundary, Element):
     straight: ClassVar[bool] = False
     self_placed: ClassVar[bool] = True
     refracts: ClassVar[bool] = False
+    counted_by: ClassVar[str] = "count"
 
     bad = "refuse"  # No field, which would stand before those of the classes.
 
@@ -82,7 +84,13 @@ class ChainVertex(MediaOfBoundary, Element):
     @property
     def in_chain(self) -> PlaceInChain:
         """Where it stands in its chain."""
-        raise NotImplementedError
+        name = self.counted_by
+        return PlaceInChain(self.vertices, self.place, getattr(self, name), name)
+
+    @property
+    def _points(self) -> Coordinates:
+        """The points up to the one behind the vertex."""
+        return self.in_chain.points_from_start()
 
     @property
     def front(self) -> Any:
@@ -92,7 +100,7 @@ class ChainVertex(MediaOfBoundary, Element):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number; which vertex this is, is none."""
         for name, domain in self.domains().items():
-            if name not in ("place", self.in_chain.counted_by):
+            if name not in ("place", self.counted_by):
                 yield from self.domain_here(domain).parts(name, getattr(self, name))
 
     def domain_here(self, domain: Domain) -> Domain:
@@ -109,14 +117,14 @@ class ChainVertex(MediaOfBoundary, Element):
 
     def own_frame(self, port: str) -> VertexFrame:
         """Return the frame of a port, made when somebody looks at it."""
-        return VertexFrame(self.in_chain.points_from_start(), leaves=port != "in")
+        return VertexFrame(self._points, leaves=port != "in")
 
     def turn_from(self, before: Element) -> Operation:
         """Return the turn from the frame in which light leaves the vertex before."""
         # The vertex before is the one that this chain says.
         hardly = self.refracts or getattr(before, "refracts", False)
         turn = TURN_AT_REFRACTION if hardly else TURN_BETWEEN_PLANES
-        return self.in_chain.points_from_start().planes(turn)
+        return self._points.planes(turn)
 
     def fault_behind(self, before: Element) -> str:
         """Say which vertex light must come from, unless it comes from the one before this."""
@@ -131,10 +139,8 @@ class ChainVertex(MediaOfBoundary, Element):
         )
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        results = []
-        if frames:
-            results.append(f"'{owner}' has its frames from its vertices; give it no other frames")
-        return [*results, *self._place_faults(owner)]
+        others = [f"'{owner}' has its frames from its vertices; give it no other frames"]
+        return (others if frames else []) + self._place_faults(owner)
 
     def _goes_so(self, owner: str, *event_and_media: Any) -> tuple[Agreement, ...]:
         """Return that light can go from point to point by an event, n in front, n and k behind."""
@@ -196,24 +202,23 @@ class Vertex(ChainVertex, kind="vertex"):
     bad: Bad = "refuse"
 
     @property
-    def in_chain(self) -> PlaceInChain:
-        """Where it stands in its chain."""
-        shape = getattr(self.events, "shape", ()) or (None,)
-        return PlaceInChain(self.vertices, self.place, shape[-1], "count")
+    def count(self) -> int | None:
+        """How many vertices there are; None where the events do not say."""
+        shape = getattr(self.events, "shape", ())
+        return shape[-1] if shape else None
 
     def domain_here(self, domain: Domain) -> Domain:
         if isinstance(domain, EventsDomain):
             return replace(domain, tail=(self.in_chain.count,))
-        here = super().domain_here(domain)
-        return replace(here, ends=True) if isinstance(here, VerticesDomain) else here
+        if isinstance(domain, VerticesDomain):
+            domain = replace(domain, ends=True)
+        return super().domain_here(domain)
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the way from ``in`` to ``out``, by reflection or refraction."""
-        event, n1, n2, k = self._event_and_media
-        points = self.in_chain.points_from_start()
-        met = points.passed_to(EVENT_AT_VERTEX, n1, n2, k, *self._events)
-        n1, n2, *cos_sin = met.results(4)
-        operation = Operation(AT_EVENT, (event, n1, n2, k, *cos_sin))
+        event, *media = self._event_and_media
+        n1, n2, *cos_sin = self._points.passed_to(EVENT_AT_VERTEX, *media).results(4)
+        operation = Operation(AT_EVENT, (event, n1, n2, media[-1], *cos_sin))
         return (Coupling("in", "out", (operation,)),)
 
     def medium_at(self, port: str) -> Any:
@@ -221,19 +226,9 @@ class Vertex(ChainVertex, kind="vertex"):
         if port == "in":
             return self.outside
         event, n1, n2, _ = map(operand_of, self._event_and_media)
-        if not all(operand.known for operand in (n1, n2)) or n1.traced or n2.traced:
+        if any(not operand.known or operand.traced for operand in (n1, n2)):
             return FOLLOWS
-        refracts = event.numbers() == Event.REFRACTS
-        return np.where(refracts, n2.numbers(), n1.numbers())
-
-    def own_frame(self, port: str) -> VertexFrame:
-        frame = super().own_frame(port)
-        return replace(frame, points=frame.points._replace(events=self._events))
-
-    def turn_from(self, before: Element) -> Operation:
-        del before  # The one that this chain says; some chains are refracted at either.
-        points = self.in_chain.points_from_start()._replace(events=self._events)
-        return points.planes(TURN_AT_REFRACTION)
+        return np.where(event.numbers() == Event.REFRACTS, n2.numbers(), n1.numbers())
 
     def reversed(self) -> NoReturn:
         """Refuse: chains that end at several places have no one way back."""
@@ -250,15 +245,17 @@ class Vertex(ChainVertex, kind="vertex"):
     @property
     def event_here(self) -> Operand:
         """What happens at this vertex."""
-        return self._event(self.in_chain.at - 1)
+        return self._events[-1]
 
     @property
     def _events(self) -> tuple[Operand, ...]:
         """What happens at each vertex up to this one."""
-        return tuple(self._event(place) for place in range(self.in_chain.at))
+        here = self.in_chain
+        return tuple(Operand(self.events, place, (here.count,)) for place in range(here.at))
 
-    def _event(self, place: int) -> Operand:
-        return Operand(self.events, place, (self.in_chain.count,))
+    @property
+    def _points(self) -> Coordinates:
+        return super()._points._replace(events=self._events)
 
     @property
     def _event_and_media(self) -> tuple[Any, Any, Any, Any]:
@@ -293,6 +290,7 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
 
     outputs: ClassVar[tuple[str, ...]] = ("reflected",)
     natural: ClassVar[str] = "reflected"
+    counted_by: ClassVar[str] = "reflections"
     mirrored: ClassVar[tuple[str, ...]] = ()
 
     index: Index
@@ -301,11 +299,6 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     outside: OutsideIndex = 1.0
     reflections: Whole | None = None
     bad: Bad = "refuse"
-
-    @property
-    def in_chain(self) -> PlaceInChain:
-        """Where it stands in its chain."""
-        return PlaceInChain(self.vertices, self.place, self.reflections)
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the reflection from ``in`` to ``reflected``."""
@@ -357,11 +350,6 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     outside: OutsideIndex = 1.0
     count: Whole | None = None
     bad: Bad = "refuse"
-
-    @property
-    def in_chain(self) -> PlaceInChain:
-        """Where it stands in its chain."""
-        return PlaceInChain(self.vertices, self.place, self.count, "count")
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the refraction from ``in`` to ``transmitted``."""
