@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import reduce
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -100,8 +99,7 @@ class PlaceInChain:
     @property
     def at(self) -> int:
         """The number; 1 or the last where it is no place, which is told as a fault."""
-        number = self.number if is_whole(self.number) else 1
-        return min(number, max(self.count, 1))
+        return min(self.number if is_whole(self.number) else 1, max(self.count, 1))
 
     def _points(self, first: int) -> Coordinates:
         last = self.at + 1
@@ -112,7 +110,7 @@ class PlaceInChain:
             points = PointsByAngles(self.count, first, last, backwards=backwards)
             return Coordinates(operands, points)
         places = range(3 * first, 3 * last + 3)
-        return Coordinates(tuple(Operand(self.vertices, at, self.tail) for at in places), None)
+        return Coordinates(tuple(Operand(self.vertices, at, self.tail) for at in places))
 
 
 def same_points(first: Any, second: Any) -> bool:
@@ -127,7 +125,7 @@ class Coordinates(NamedTuple):
     """Points of a chain: what is given of them, and what makes coordinates of it."""
 
     arguments: tuple[Operand, ...]
-    points: PointsByAngles | None
+    points: PointsByAngles | None = None
     events: tuple[Operand, ...] = ()
 
     @property
@@ -141,12 +139,11 @@ class Coordinates(NamedTuple):
 
     def planes(self, kernel: Kernel) -> Operation:
         """Return the operation of a kernel of planes of incidence, by points, or else by angles."""
-        if self.points is None:
-            factory: Any = replace(kernel.factory, events=len(self.events))  # type: ignore[type-var]
-            return Operation(replace(kernel, factory=factory), self.operands)
-        known: Any = replace(kernel.factory, known=True)  # type: ignore[type-var]
-        points = replace(self.points, axes=True)
-        return Operation(replace(kernel, factory=known), self._coordinates(points))
+        points, events, known = self.points, self.events, {"events": len(self.events)}
+        if points is not None:
+            points, events, known = replace(points, axes=True), (), {"known": True}
+        made: Any = replace(kernel.factory, **known)  # type: ignore[type-var]
+        return Operation(replace(kernel, factory=made), (*events, *self._coordinates(points)))
 
     def _coordinates(self, points: PointsByAngles | None) -> tuple[Operand | ResultOf, ...]:
         if points is None:
@@ -170,9 +167,8 @@ class EventsDomain(Domain):
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         del rounding
-        events = Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT
-        known = reduce(np.logical_or, (array == event for event in events))
-        bad = ~known | (array.dtype.kind == "c")
+        events = (Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT)
+        bad = ~np.isin(array, events) | (array.dtype.kind == "c")
         if np.any(bad):
             number = f"{array[bad].ravel()[0]:g}"
             raise ValueFault(f"{owner} is {number}{first_place(bad)}; give {self.described()}")
@@ -203,8 +199,7 @@ class EventFits(Agreement):
         result = _surely_fits(*numbers)
         if not np.all(result):
             left = ~result
-            several = (np.broadcast_to(number, left.shape)[left] for number in numbers)
-            result[left] = _fits(np, *several)
+            result[left] = _fits(np, *(np.broadcast_to(n, left.shape)[left] for n in numbers))
         return result
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
@@ -320,13 +315,13 @@ def off_normals(
 
 def _refuse_no_normals(normals: Floats) -> None:
     """Refuse what is no direction, whatever the chain."""
-    several = normals.reshape(-1, *normals.shape[-2:])
     for bad, problem in (
-        (~np.isfinite(several).all(axis=-1), "is not finite; give numbers"),
-        (~several.any(axis=-1), "has no length; give one with a direction of its own"),
+        (~np.isfinite(normals).all(axis=-1), "is not finite; give numbers"),
+        (~normals.any(axis=-1), "has no length; give one with a direction of its own"),
     ):
         if bad.any():
-            chain, place = (int(index[0]) for index in np.nonzero(bad))
+            several = bad.reshape(-1, bad.shape[-1])
+            chain, place = (int(index[0]) for index in np.nonzero(several))
             raise ValueFault(f"{_normal_of(place, chain, normals.shape[:-2])} {problem}")
 
 
@@ -342,19 +337,12 @@ def _surely_along(chains: Floats, normals: Floats, sides: Floats) -> bool:
     )
     with np.errstate(all="ignore"):
         legs = points[1:] - points[:-1]
-        legs /= np.sqrt(_dot(legs, legs))[:, np.newaxis]
+        legs /= np.sqrt(np.sum(legs * legs, axis=1))[:, np.newaxis]
         b = legs[1:] * n12[:, 1, np.newaxis] - legs[:-1] * n12[:, 0, np.newaxis]
-        bb, nb, nn = _dot(b, b), _dot(n, b), _dot(n, n)
+        bb, nn, nb = (np.sum(u * v, axis=1) for u, v in ((b, b), (n, n), (n, b)))
         nb *= nb
         bent = bb >= _STRAIGHT * _STRAIGHT
         return bool(np.all((nn * bb - nb <= _SURELY * _TOLERANCE**2 * nb) & bent & (nb > 0.0)))
-
-
-def _dot(a: Floats, b: Floats) -> Floats:
-    product = a * b
-    result: Floats = product[:, 0] + product[:, 1]
-    result += product[:, 2]
-    return result
 
 
 def _off(chains: Floats, normals: Floats, sides: Floats) -> Floats:
@@ -408,16 +396,18 @@ class VertexFrame:
                 "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
                 "jit and grad"
             )
-        points = {id(o): cut(_doubles(o, arguments)) for o in self.points.operands}
-        turns = [cut(_doubles(operand, arguments)) for operand in self.turns]
-        shape = joint_shape(*(number.shape for number in (*points.values(), *turns)))
+        numbers = {
+            id(o): cut(o.numbers(arguments).astype(np.float64, copy=False)) for o in self._views
+        }
+        shape = joint_shape(*(number.shape for number in numbers.values()))
         with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
             planes = self.points.planes(REFLECTED if self.leaves else ARRIVING)
-            axes = planes.numbers(NUMPY, lambda operand: points[id(operand)])
-            x, z = (_vectors(axes[start : start + 3], shape) for start in (0, 3))
+            axes = planes.numbers(NUMPY, lambda operand: numbers[id(operand)])
+            whole = [np.broadcast_to(part, shape) for part in axes[:6]]
+            x, z = np.stack(whole[:3], axis=-1), np.stack(whole[3:], axis=-1)
             y = np.cross(z, x)
-            if turns:
-                angle = np.asarray(sum(turns))[..., np.newaxis]
+            if self.turns:
+                angle = np.asarray(sum(numbers[id(turn)] for turn in self.turns))[..., np.newaxis]
                 c, s = np.cos(angle), np.sin(angle)
                 x, y = c * x + s * y, c * y - s * x
         return Frame.trusted(x, y, z)
@@ -425,11 +415,3 @@ class VertexFrame:
     @property
     def _views(self) -> tuple[Operand, ...]:
         return *self.points.operands, *self.turns
-
-
-def _doubles(operand: Operand, arguments: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
-    return operand.numbers(arguments).astype(np.float64, copy=False)
-
-
-def _vectors(components: Any, shape: tuple[int, ...]) -> Any:
-    return np.stack([np.broadcast_to(part, shape) for part in components], axis=-1)
