@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields
-from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, dataclass_transform, overload
 
 from optipath.elements.alone import mueller_alone
@@ -17,7 +16,7 @@ from optipath.elements.own_element import (
     rows_kernel,
     same_value,
 )
-from optipath.errors import LightError, OptipathError, PathError, listed, shown, unknown
+from optipath.errors import LightError, OptipathError, PathError, shown, unknown
 from optipath.kernels.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
 from optipath.light.array_axes import why_refused
 from optipath.light.light import Light
@@ -80,9 +79,6 @@ class NamedElement(Chainable):
 
 
 E = TypeVar("E", bound="Element")
-
-_SAYS = ("mueller_rows", "couplings")
-"""By what a class says what it does to light."""
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
@@ -199,10 +195,9 @@ class Element(Chainable):
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number: its name, the value, its domain."""
-        domains = self.domains().items()
-        if self.physical is False:
-            domains = {name: domain.unphysical for name, domain in domains}.items()
-        return chain(*[domain.parts(name, getattr(self, name)) for name, domain in domains])
+        for name, domain in self.domains().items():
+            allowed = domain.unphysical if self.physical is False else domain
+            yield from allowed.parts(name, getattr(self, name))
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
         """Return the numbers that must be something besides, where a link leads to a port.
@@ -380,29 +375,27 @@ class Element(Chainable):
         >>> Rotator(0.5).reversed()
         Rotator(angle=0.5)
         """
-        mirrored = self._mirrored_fields()
-        turn = getattr(self, "azimuth", 0.0)
-        is_turned = not vanishes(turn)
-        if is_turned and not self._has_axes_alone(mirrored):
-            raise PathError(
-                f"{self._called} has an azimuth, which belongs to the link before it on the way "
-                f"back too; reverse the path that it stands in, path.reversed()"
-            )
-        values = {name: getattr(self, name) for name in mirrored}
+        mirrored, turn = self._mirrored_fields(), getattr(self, "azimuth", 0.0)
         # The opposite of 0 is 0.
         others = {
             name: -value if isinstance(value, Parameter) else 0.0 - value
-            for name, value in values.items()
-            if value is not None
+            for name in mirrored
+            if (value := getattr(self, name)) is not None
         }
-        if is_turned:
+        if not vanishes(turn):
+            domains = self.domains()
+            problem = PathError(
+                f"{self._called} has an azimuth, which belongs to the link before it on the way "
+                f"back too; reverse the path that it stands in, path.reversed()"
+            )
+            are_axes = all(isinstance(domains[name], AxisDomain) for name in mirrored)
+            # Turning an element of another kind is more than turning its axes.
+            if is_own(type(self)) or not mirrored or not are_axes:
+                raise problem
             try:
                 others = {name: angle - turn for name, angle in others.items()}
             except (OptipathError, ValueError):
-                raise PathError(
-                    f"{self._called}: its {listed([*others])} and azimuth are values that make no "
-                    f"one angle; reverse the path that it stands in, path.reversed()"
-                ) from None
+                raise problem from None
         return with_values(self, **others) if others else self
 
     @classmethod
@@ -474,10 +467,11 @@ class Element(Chainable):
                 f"{self._called} adds up light without loss, which has no way back; put a "
                 f"BeamSplitter in its place, or make one path for each light"
             )
-        for one in type(self).__mro__:
-            if (said := vars(one).get("mirrored")) is not None:
-                return tuple(said)
-            if any(name in vars(one) for name in ("mirrored", *_SAYS)):
+        for one in map(vars, type(self).__mro__):
+            if (mirrored := one.get("mirrored")) is not None:
+                return tuple(mirrored)
+            # What it does to light is said anew, and its fields are not.
+            if one.keys() & {"mirrored", "mueller_rows", "couplings"}:
                 break
         name = type(self).__name__
         raise PathError(
@@ -485,12 +479,6 @@ class Element(Chainable):
             f"mirrored: ClassVar[tuple[str, ...]] = ... in it, the fields that do, such as "
             f"('angle',), or () if none does, or give it a method reversed()"
         )
-
-    def _has_axes_alone(self, mirrored: tuple[str, ...]) -> bool:
-        """Tell whether turning the element is turning its axes, and nothing else."""
-        domains = self.domains()
-        axes = all(isinstance(domains[name], AxisDomain) for name in mirrored)
-        return bool(mirrored) and axes and not is_own(type(self))
 
 
 def with_values(element: E, **values: Any) -> E:
