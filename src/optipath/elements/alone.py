@@ -57,26 +57,26 @@ def mueller_alone(
     batch = checked_alone(element, enters, frames)
     couplings = couplings_of(element)
     entering = [coupling for coupling in couplings if coupling.enters == enters]
-    wanted = [coupling for coupling in entering if coupling.leaves == leaves]
-    if not wanted:
+    wanted = next((coupling for coupling in entering if coupling.leaves == leaves), None)
+    if wanted is None:
         raise PathError(_no_way(owner, enters, leaves, couplings))
     with enough_for(batch, _TWO_MATRICES, error=PathError):
         for way in own_ways(owner, element, entering, method):
             if way.are_known() and (faults := way.faults(Operand.numbers)):
                 raise PathError(*(text for _, text in faults))
-        matrix = wanted[0].matrix(method)
+        matrix = wanted.matrix(method)
     arriving = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
     leaving = _frame_at(element, leaves, frames or {enters: arriving}) or Frame()
     # An azimuth is in the frames alone.
-    matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
-    return Mueller.of(matrix, arriving, leaving)
+    return Mueller.of(
+        np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix, arriving, leaving
+    )
 
 
 def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FRAMES) -> Any:
     """Return the shape of the batch of an element, all of whose values are known and allowed."""
     owner = element.kind or type(element).__name__
-    followed = element.followed() if isinstance(element, MediaOfBoundary) else ()
-    if followed:
+    if followed := element.followed() if isinstance(element, MediaOfBoundary) else ():
         raise PathError(
             f"{owner} takes its {' and '.join(followed)} over from a boundary before it (FOLLOWS), "
             f"and alone it has none; give numbers"
@@ -86,8 +86,9 @@ def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FR
     shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
-    laws = [*arriving_waves(owner, element, enters), *element.agreements(owner)]
-    faults = faults or first_faults(laws)
+    faults = faults or first_faults(
+        [*arriving_waves(owner, element, enters), *element.agreements(owner)]
+    )
     is_placed = not faults and element.frame_of(enters, frames) is not None
     if is_placed and np.any(Operand(azimuth_at(element, enters)).numbers()):
         faults = [f"{owner} is turned by its world frames and by an azimuth; give one of them"]

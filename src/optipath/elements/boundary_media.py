@@ -74,16 +74,17 @@ class ArrivingWave(Agreement):
         del varying
         n, k, n0, k0, _ = numbers
         goes_on, fades = self._wave(np, *numbers)
-        medium = f"n = {text_of(self.operands[0], n)} and k = {text_of(self.operands[1], k)}"
+        of_n, of_k = self.operands[:2]
         cure = f"an index there with k of at most n = {n:.12g}"
         if k <= n:
             most = math.floor(math.degrees(self._largest(n, k, n0, k0)) * 1e6) / 1e6
             there = "" if (n, k) == (n0, k0) else f" in n = {n0:.12g}, k = {k0:.12g}"
             cure = f"an incidence of at most {most:.12g} deg{there}"
         return (
-            f"'{self.enters}' is lit from {medium} at an incidence at which light fades along the "
-            f"normal faster than it goes on there (Im g = {fades:.4g}, Re g = {goes_on:.4g}), so "
-            f"that the light that arrives carries no power of its own; give {cure}"
+            f"'{self.enters}' is lit from n = {text_of(of_n, n)} and k = {text_of(of_k, k)} at an "
+            f"incidence at which light fades along the normal faster than it goes on there "
+            f"(Im g = {fades:.4g}, Re g = {goes_on:.4g}), so that the light that arrives carries "
+            f"no power of its own; give {cure}"
         )
 
     def _wave(self, xp: Any, n: Any, k: Any, n0: Any, k0: Any, angle: Any) -> tuple[Any, Any]:

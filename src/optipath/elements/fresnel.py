@@ -130,14 +130,11 @@ def _fresnel(
     # Adding 0 turns -0 into 0.
     arguments = (np.ones(()), *(part + 0.0 for part in (m.real, m.imag, c, s)))
     with np.errstate(all="ignore"):
-        kernel, left = kernel.specialised([np.asarray(x, kind) for x in arguments], _vanishes)
+        values = [np.asarray(number, kind) for number in arguments]
+        kernel, left = kernel.specialised(values, lambda number: not np.any(number))
         numbers = kernel.made_for(NUMPY)(*left)
         (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
     return tuple(np.broadcast_to(number, shape).astype(kind) for number in (A, B, C, S))
-
-
-def _vanishes(number: npt.NDArray[Any]) -> bool:
-    return not np.any(number)
 
 
 def refraction_angle(
@@ -352,7 +349,11 @@ def number_within(domain: Domain, name: str, value: Any) -> Any:
 
 def plain_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
     """Return the cosine and the sine of an incidence; NaN where JAX traces what is no angle."""
-    cos, sin = _real_argument("cos_incidence", cos), _real_argument("sin_incidence", sin)
+    several = {"cos_incidence": cos, "sin_incidence": sin}
+    cos, sin = (
+        value if is_traced(value) else as_argument(name, COSINE.read(name, value))
+        for name, value in several.items()
+    )
     check_broadcast({"cos_incidence": cos.shape, "sin_incidence": sin.shape})
     traced = is_traced(cos) or is_traced(sin)
     c = number_within(COSINE, "cos_incidence", cos if traced else within_right_angle(cos, sin))
@@ -381,10 +382,6 @@ def parts_of(index: Any) -> tuple[Any, Any]:
     if index.dtype.kind != "c":
         return index, np.zeros(())
     return index.real + 0.0, index.imag + 0.0
-
-
-def _real_argument(name: str, value: Any) -> Any:
-    return value if is_traced(value) else as_argument(name, COSINE.read(name, value))
 
 
 def _cosine_and_sine(xp: Primitives) -> KernelFunction:

@@ -112,8 +112,7 @@ class Interface(BoundaryElement, kind="interface"):
         angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
         before = self._index_of_angle(angle)
         behind = (second, first) if before else (first, second)
-        arguments = first, second, *before, *angle
-        reflect, transmit = [_between(family, *arguments) for family in _FROM_FRONT]
+        reflect, transmit = [_between(f, first, second, *before, *angle) for f in _FROM_FRONT]
         reflect_back = _between(_FROM_FRONT[0], *behind, *before, *angle)
         through_back = transmit
         if not (vanishes(first[1]) and vanishes(second[1])):

@@ -95,18 +95,14 @@ class MatrixDomain(PhysicalDomain):
         tolerance = tolerance_of(rounding)
         bad = ~are_passive(array, tolerance)
         if np.any(bad):
-            place = [*np.argwhere(bad)[0].tolist()]
-            wanted = cure_of(array, tolerance)
+            place, wanted = [*np.argwhere(bad)[0].tolist()], cure_of(array, tolerance)
             cure = Cure.of(
-                lambda free: (
-                    f"give {wanted}, or {free} for what is measured as it is, and for amplifiers"
-                ),
+                lambda free: f"give {wanted}, or {free} for measured matrices and for amplifiers",
                 "physical=False",
                 "physical = false",
             )
-            raise ValueFault(
-                Fault(f"{owner}{place or ''} {problem_of(array[bad][0], tolerance)}", cure)
-            )
+            problem = problem_of(array[bad][0], tolerance)
+            raise ValueFault(Fault(f"{owner}{place or ''} {problem}", cure))
 
 
 ElementMatrix: TypeAlias = Annotated[Quantity, MatrixDomain("Mueller matrix", tail=(4, 4))]

@@ -252,19 +252,12 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the rotation, by the cheapest kernel that is right."""
-        return (Coupling("in", "out", (self._operation,)),)
-
-    @property
-    def _operation(self) -> Operation:
-        if vanishes(self.s2):
-            if vanishes(self.s3):
-                return Operation(RETARDER, (self.s1,))
-            if vanishes(self.s1):
-                return Operation(ROTATION_ALONG, (self.s3, 0.5))
-        return Operation(ELLIPTICAL_RETARDER, (self.s1, self.s2, self.s3))
-
-
-_TURN = 2.0 * math.pi
+        operation = Operation(ELLIPTICAL_RETARDER, (self.s1, self.s2, self.s3))
+        if vanishes(self.s2) and vanishes(self.s3):
+            operation = Operation(RETARDER, (self.s1,))
+        elif vanishes(self.s2) and vanishes(self.s1):
+            operation = Operation(ROTATION_ALONG, (self.s3, 0.5))
+        return (Coupling("in", "out", (operation,)),)
 
 
 def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float, Any, Any]:
@@ -280,29 +273,23 @@ def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float
         raise ValueFault(
             f"retardance is {phase:g}; give one of 0 or more, and turn the angle by 90 deg"
         )
-    birefringence = _birefringence(crystal)
-    by_wavelength = isinstance(birefringence, CurveValue)
-    there = float(birefringence.at(where) if by_wavelength else birefringence)
+    crystal = Crystal.named(crystal) if isinstance(crystal, str) else crystal
+    of_index = crystal.birefringence if isinstance(crystal, Crystal) else crystal
+    by_wavelength = isinstance(of_index, CurveValue)
+    if not by_wavelength and real_number(of_index) is None:
+        raise ValueFault(
+            f"crystal is {shown(crystal)}; give a name such as 'quartz', a Crystal, or a "
+            f"birefringence as a number or by wavelength"
+        )
+    there = float(of_index.at(where) if by_wavelength else of_index)
     if not np.isfinite(there) or there == 0.0:
         raise ValueFault(
             f"crystal has a birefringence of {there:g} at {where * 1e9:.10g} nm; give one that "
             f"retards"
         )
-    thickness = (whole + phase / _TURN) * where / abs(there)
-    when = birefringence.depends_on[0] if by_wavelength else WavelengthParameter()
-    return thickness, -birefringence if there < 0.0 else birefringence, when
-
-
-def _birefringence(crystal: Any) -> Any:
-    if isinstance(crystal, str):
-        crystal = Crystal.named(crystal)
-    result = crystal.birefringence if isinstance(crystal, Crystal) else crystal
-    if isinstance(result, CurveValue) or real_number(result) is not None:
-        return result
-    raise ValueFault(
-        f"crystal is {shown(crystal)}; give a name such as 'quartz', a Crystal, or a birefringence "
-        f"as a number or by wavelength"
-    )
+    thickness = (whole + phase / (2.0 * math.pi)) * where / abs(there)
+    when = of_index.depends_on[0] if by_wavelength else WavelengthParameter()
+    return thickness, -of_index if there < 0.0 else of_index, when
 
 
 def _one(name: str, number: Any) -> float:
@@ -382,21 +369,18 @@ class FaradayRotator(Element, kind="faraday-rotator"):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value; an angle beside another, or a factor that is missing, is refused."""
         yield from super().quantities()
-        arguments = [name for name in _FACTORS if getattr(self, name) is not None]
-        if self.angle is not None and arguments:
-            why = f"is given beside {listed(arguments)}; {_CURE}"
-            yield "angle", self.angle, Refused("angle", why=why)
-        elif self.angle is None and len(arguments) < len(_FACTORS):
-            missing = (
-                [name for name in _FACTORS if name not in arguments] if arguments else ["angle"]
-            )
-            why = f"is missing; {_CURE}"
-            yield from ((name, None, Refused(name, why=why)) for name in missing)
+        missing = [name for name in _FACTORS if getattr(self, name) is None]
+        some = len(missing) < len(_FACTORS)
+        if self.angle is not None and some:
+            others = listed([name for name in _FACTORS if name not in missing])
+            yield "angle", self.angle, Refused("angle", why=f"is given beside {others}; {_CURE}")
+        elif self.angle is None and missing:
+            for name in missing if some else ["angle"]:
+                yield name, None, Refused(name, why=f"is missing; {_CURE}")
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the turn of the light, which is the frame's turn undone."""
-        if self.angle is not None:
-            turning = Operation(TURN_BACK, (self.angle,))
-        else:
-            turning = Operation(FARADAY_ROTATION, (self.verdet, self.field, self.length))
-        return (Coupling("in", "out", (turning,)),)
+        kernel, values = TURN_BACK, tuple[Any, ...]((self.angle,))
+        if self.angle is None:
+            kernel, values = FARADAY_ROTATION, (self.verdet, self.field, self.length)
+        return (Coupling("in", "out", (Operation(kernel, values),)),)

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 
+_ANGLES = {"incidences": INCIDENCE, "turns": ANGLE}
+
+
 @dataclass(frozen=True, eq=False)
 class VerticesByAngles:
     """The vertices of a chain of specular reflections, given by angles.
@@ -66,26 +69,22 @@ class VerticesByAngles:
     def __post_init__(self) -> None:
         if not isinstance(self.backwards, bool):
             raise PathError(f"backwards must be True or False, not {shown(self.backwards)}")
-        for name, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
-            several = entries_of(name, "angles", getattr(self, name), PathError)
-            each = tuple(
-                stored_value(f"{name}[{place}]", angle, domain)
-                for place, angle in enumerate(several)
-            )
-            object.__setattr__(self, name, each)
+        for name, domain in _ANGLES.items():
+            several = enumerate(entries_of(name, "angles", getattr(self, name), PathError))
+            stored = tuple(stored_value(f"{name}[{at}]", angle, domain) for at, angle in several)
+            object.__setattr__(self, name, stored)
         count, turns = len(self.incidences), len(self.turns)
         if not count:
             raise PathError("vertices by angles need an incidence for each reflection; give one")
         if turns != count - 1:
             raise PathError(
-                f"{counted(count, 'incidence')} take{'s' * (count == 1)} "
-                f"{counted(count - 1, 'turn')}, one from each plane of incidence to the next, not "
-                f"{turns}"
+                f"{counted(count, 'incidence')} and {counted(turns, 'turn')} make no chain; give "
+                f"{counted(count - 1, 'turn')}, one from each plane of incidence to the next"
             )
 
     def parts(self, name: str) -> Iterator[tuple[str, Any, Domain]]:
         """Yield the angles: their names, values and domains."""
-        for field, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
+        for field, domain in _ANGLES.items():
             for place, angle in enumerate(getattr(self, field)):
                 yield f"{name}.{field}[{place}]", angle, domain
 
@@ -128,8 +127,8 @@ def vertices_from_angles(
     chain = VerticesByAngles(incidences, turns)  # type: ignore[arg-type]
     arguments = {name: domain.check(name, angle) for name, angle, domain in chain.parts("vertices")}
     batch = check_broadcast({name: angle.shape for name, angle in arguments.items()})
-    count, cos, sin = len(chain.incidences), cosine(NUMPY), sine(NUMPY)
-    pairs = [part for angle in arguments.values() for part in (cos(angle), sin(angle))]
+    count, parts = len(chain.incidences), (cosine(NUMPY), sine(NUMPY))
+    pairs = [part(angle) for angle in arguments.values() for part in parts]
     numbers = PointsByAngles(count, 0, count + 1)(NUMPY)(*pairs)
     points = np.stack([np.broadcast_to(number, batch) for number in numbers], axis=-1)
     return points.reshape(*batch, count + 2, 3)
@@ -189,16 +188,14 @@ class VerticesDomain(Domain):
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         super()._check_numbers(owner, array, rounding)
         chains = array.reshape(-1, *array.shape[-2:])
-        for piece in pieces_of(len(chains)):
-            some = chains[piece]
-            if _are_surely_apart(some):
-                continue
-            with np.errstate(over="ignore"):
-                bad = ~legs_fit(some)
-            if bad.any():
-                chain, place = (int(result[0]) for result in np.nonzero(bad))
+        with np.errstate(over="ignore"):
+            for piece in pieces_of(len(chains)):
+                some = chains[piece]
+                if _are_surely_apart(some) or (fit := legs_fit(some)).all():
+                    continue
+                chain, place = (int(result[0]) for result in np.nonzero(~fit))
                 where = of_chain(piece.start + chain, array.shape[:-2])
-                raise ValueFault(_leg_fault(owner, some[chain], place, where))
+                raise ValueFault(_leg_fault(owner, some[chain, place : place + 2], place, where))
 
 
 def legs_fit(chains: Any) -> Any:
@@ -212,29 +209,25 @@ def legs_fit(chains: Any) -> Any:
 def _are_surely_apart(chains: npt.NDArray[Any]) -> bool:
     """Tell, quickly, whether all legs are within the limits; those from chain to chain as well."""
     flat = chains.reshape(-1)
-    with np.errstate(over="ignore"):
-        squares = flat[3:] - flat[:-3]
-        squares *= squares
-        lengths = squares[:-2] + squares[1:-1]
-        lengths += squares[2:]
+    squares = flat[3:] - flat[:-3]
+    squares *= squares
+    lengths = squares[:-2] + squares[1:-1]
+    lengths += squares[2:]
     of_legs = lengths[::3]
     return bool(of_legs.min() >= _LEAST and of_legs.max() <= _MOST)
 
 
-def _leg_fault(owner: str, chain: npt.NDArray[Any], place: int, where: str) -> str:
-    both = f"{owner}: vertices {place} and {place + 1}{where}{_COUNTED},"
-    start, end = chain[place], chain[place + 1]
+def _leg_fault(owner: str, leg: npt.NDArray[Any], place: int, where: str) -> str:
+    both = f"{owner}: vertices {place} and {place + 1}{where}, counted from the light as 0,"
+    start, end = leg
     if np.array_equal(start, end):
         return f"{both} are one point, {start.tolist()}; move one, or leave it out"
-    with np.errstate(over="ignore"):
-        length = float(np.max(np.abs(end - start)))
     return (
-        f"{both} are about {length:.2g} apart; legs are within {SHORTEST:g} .. {LONGEST:g}: give "
-        f"the points in another unit"
+        f"{both} are about {float(np.max(np.abs(end - start))):.2g} apart; legs are within "
+        f"{SHORTEST:g} .. {LONGEST:g}: give the points in another unit"
     )
 
 
-_COUNTED = ", counted from the light as 0"
 VERTICES = VerticesDomain("coordinate")
 BAD = ("refuse", "mask")
 """What becomes of chains that cannot be: an error, or light that is NaN."""
