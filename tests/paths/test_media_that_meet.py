@@ -291,8 +291,9 @@ def test_light_that_goes_to_and_fro_is_turned_alike_on_both_ways(back):
     late = {"b": [0.3, -0.3]} if isinstance(back, op.Parameter) else {}
     fault = fault_of(slab(FLAT, turned, azimuth=back), **late)
     second = "0 deg" if back is None else "-17.18873385 deg"
-    way = "on the way from 'front.transmitted' to 'back.in', and by"
-    assert f"by 17.18873385 deg {way} {second}" in fault
+    there, back = "'front.transmitted' to 'back.in'", "'back.reflected' to 'front.back'"
+    turns = f"turns the plane of incidence by 17.18873385 deg, and that from {back} by {second}"
+    assert f"the way from {there} {turns}" in fault
     assert "let the azimuths on either way add up to the same" in fault
     several = op.Interface(1.0, F, outside=F, azimuth=np.array([0.0, np.pi, 0.3]))
     assert fault_of(slab(FLAT, several)).endswith("(at 2, of 3 paths)")
@@ -317,8 +318,8 @@ def before_mirror(go, back, *, again=None):
 def test_light_that_a_mirror_sends_back_is_turned_alike_on_both_ways(go):
     late = {"a": 0.3} if isinstance(go, op.Parameter) else {}
     fault = fault_of(before_mirror(go, None), **late)
-    assert "between 'f' and 'm', but is turned by 17.18873385 deg" in fault
-    assert "from 'f.transmitted' to 'm.in', and by 0 deg from 'm.reflected' to 'f.back'" in fault
+    assert "between 'f' and 'm', but the way from 'f.transmitted' to 'm.in' turns" in fault
+    assert "and that from 'm.reflected' to 'f.back' by 0 deg; let" in fault
     # A mirror without axes may turn about its normal: it is 0.04 + 0.96^2 0.81 / (1 - 0.04 0.81).
     r = 0.04 + 0.96**2 * 0.81 / (1 - 0.04 * 0.81)
     light = before_mirror(go, go).trace(**late).stokes

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.meetings import TURNED, Meetings, OnePlane, keys_of, turn_text, way_text
+from optipath.composer.meetings import TURNED, Meetings, SameTurn, keys_of, turn_text, way_text
 from optipath.composer.path_values import FOLLOWING
 from optipath.composer.wiring import Wiring
 from optipath.elements.boundary import BoundaryElement, world_angles
@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from optipath.composer.meetings import Meeting
     from optipath.composer.wiring import Port
     from optipath.elements.boundary import WorldAngle
+
+
+_HAS_PLANE = math.pi / 2
+"""An incidence at which light has a plane, so that turns are compared."""
 
 
 class Media:
@@ -88,7 +92,7 @@ class Media:
     @property
     def _between_layers(self) -> Iterator[Agreement]:
         """What must fit of turns and angles between parallel faces, and on the way to a mirror."""
-        planes: dict[Any, OnePlane] = {}
+        planes: dict[Any, SameTurn] = {}
         laws: dict[Any, SnellsLaw] = {}
         rounds: dict[Any, Meeting] = {}
         ways = []
@@ -101,7 +105,8 @@ class Media:
             both_ways = meeting.sides in self.meetings.to_and_fro
             if turns and (follows or both_ways):
                 operands = tuple(map(Operand, (first.incidence, *turns)))
-                plane = OnePlane(operands, *ends, follows)
+                names, way = (leaves[0], enters[0]), way_text(meeting)
+                plane = SameTurn(operands, names, way, len(turns), follows=follows)
                 planes.setdefault((leaves, enters, keys_of(turns)), plane)
             if both_ways:
                 ways.append((rounds.setdefault(meeting.sides, meeting), meeting))
@@ -117,9 +122,9 @@ class Media:
                 yield agreement
         for one, other in (*ways, *self.meetings.mirrored):
             if keys_of(one.turns) != keys_of(other.turns):
-                operands = tuple(map(Operand, (*one.turns, *other.turns)))
-                texts = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, other)]
-                yield SameTurn(operands, len(one.turns), *texts)
+                operands = tuple(map(Operand, (_HAS_PLANE, *one.turns, *other.turns)))
+                names, count = (one.leaves[0], one.enters[0]), len(one.turns)
+                yield SameTurn(operands, names, way_text(one), count, way_text(other))
 
     @property
     def _in_space(self) -> Iterator[WorldAngle]:
@@ -272,39 +277,6 @@ class SameMedium(Agreement):
 def _called(number: str) -> str:
     """Return how an index is called; a multiple of a parameter says it."""
     return number if "=" in number else f"n = {number}"
-
-
-@dataclass(frozen=True, eq=False)
-class SameTurn(Agreement):
-    """The turns on one way between two faces come to those on another, there or back.
-
-    A turn counts about the direction of travel, so that a way back undoes it by as much again. The
-    operands are the turns on both ways, between boundaries, or a boundary and a mirror.
-    """
-
-    count: int
-    first: tuple[str, str]
-    second: tuple[str, str]
-
-    @property
-    def rests_on(self) -> tuple[str, ...]:
-        """That neither way turns the plane of incidence, where there is one."""
-        return way_text(*self.first), way_text(*self.second)
-
-    def fits(self, xp: Any, *numbers: Any) -> Any:
-        return ~(abs(xp.sin(sum(numbers[: self.count]) - sum(numbers[self.count :]))) > TURNED)
-
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying  # No number is a cure.
-        name, own = (port.rpartition(".")[0] for port in self.first)
-        parts = slice(self.count), slice(self.count, None)
-        first, second = (turn_text(self.operands[part], numbers[part]) for part in parts)
-        return (
-            f"light goes to and fro between '{name}' and '{own}', but is turned by {first} on the "
-            f"way from {way_text(*self.first)}, and by {second} from {way_text(*self.second)}; "
-            f"let the azimuths on either way add up to the same, since each counts about the "
-            f"direction of its own light"
-        )
 
 
 _ROUNDING, _SINGLE_ROUNDING = 3e-8, 2.0**-22

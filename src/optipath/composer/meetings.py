@@ -230,38 +230,52 @@ _NORMAL = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class OnePlane(Agreement):
-    """The turns on the way between two parallel boundaries come to none, or light is normal.
+class SameTurn(Agreement):
+    """The turns on a way between two faces come to none, or to those on the way back.
 
-    The operands are the incidence at the first, and the turns, which add up.
+    A turn counts about the direction of travel, so that a way back undoes it by as much again. The
+    operands are the incidence at the first, which has no plane at 0, the turns, and those back.
     """
 
-    leaves: str
-    enters: str
-    follows: bool
+    names: tuple[str, str]
+    way: str
+    count: int
+    back: str = ""
+    follows: bool = False
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """That neither way turns the plane of incidence, where there is one."""
+        return (self.way, self.back) if self.back else ()
 
     @property
     def spoils(self) -> tuple[str, ...]:
         """What else is said of the turns on this way."""
-        return (way_text(self.leaves, self.enters),)
+        return () if self.back else (self.way,)
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
         angle, *turns = numbers
-        return ~((abs(xp.sin(sum(turns))) > TURNED) & (abs(xp.sin(angle)) > _NORMAL))
+        turn = sum(turns[: self.count]) - sum(turns[self.count :])
+        return ~((abs(xp.sin(turn)) > TURNED) & (abs(xp.sin(angle)) > _NORMAL))
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.
-        name, own = (port.rpartition(".")[0] for port in (self.leaves, self.enters))
+        name, own = self.names
+        parts = slice(1, 1 + self.count), slice(1 + self.count, None)
+        turn, other = (turn_text(self.operands[part], numbers[part]) for part in parts)
+        why = f"light goes to and fro between '{name}' and '{own}'"
         cure = "let the azimuths on the way add up to 0"
-        if self.follows:
+        if self.back:
+            turn += f", and that from {self.back} by {other}"
+            cure = "let the azimuths on either way add up to the same"
+        elif self.follows:
             why = f"'{own}' takes its incidence over (FOLLOWS), as a face parallel to '{name}' does"
             cure += ", or give its incidence"
         else:
-            why = f"light goes to and fro between '{name}' and '{own}', which are parallel then"
+            why += ", which are parallel then"
         return (
-            f"{why}, but the way from {way_text(self.leaves, self.enters)} turns the plane of "
-            f"incidence by {turn_text(self.operands[1:], numbers[1:])}; {cure} (a polarizer or "
-            f"retarder is turned by its angle, which turns nothing behind it)"
+            f"{why}, but the way from {self.way} turns the plane of incidence by {turn}; {cure} "
+            f"(a polarizer or retarder is turned by its angle, which turns nothing behind it)"
         )
 
 
@@ -274,10 +288,6 @@ def turn_text(operands: Any, turns: Any) -> str:
     return f"{math.degrees(sum(turns)):.10g} deg{several}"
 
 
-def way_text(leaves: str, enters: str) -> str:
-    """Write where light leaves one boundary and enters another.
-
-    >>> way_text("front.transmitted", "back.in")
-    "'front.transmitted' to 'back.in'"
-    """
-    return f"'{leaves}' to '{enters}'"
+def way_text(meeting: Meeting) -> str:
+    """Write where light leaves one boundary and enters another."""
+    return f"'{'.'.join(meeting.leaves)}' to '{'.'.join(meeting.enters)}'"

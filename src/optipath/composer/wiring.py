@@ -197,9 +197,11 @@ class Stretch(NamedTuple):
 
 def stretches(ways: Ways) -> list[Stretch]:
     """Return the ports in the order of travel, those of a loop together; ties by name."""
-    together = cycles(ways)
-    came_from = backwards(ways) if together else {}
-    loops = {min(ports): _loop(ways, ports, came_from) for ports in together}
+    order = _in_order(ways)
+    if len(order) == len(ways):
+        return [Stretch((port,)) for port in order]
+    came_from = backwards(ways)
+    loops = {min(ports): _loop(ways, ports, came_from) for ports in cycles(ways)}
     first_of = {port: first for first, loop in loops.items() for port in loop.ports}
     onwards: Ways = {}
     for port, later in ways.items():
@@ -210,8 +212,11 @@ def stretches(ways: Ways) -> list[Stretch]:
 
 
 def _in_order(ways: Ways) -> list[Port]:
-    """Return ports so that each comes behind those that lead to it; ties by name."""
-    before = _counts(ways)
+    """Return ports behind those that lead to them, ties by name; none that a loop leads to."""
+    before = dict.fromkeys(ways, 0)
+    for onwards in ways.values():
+        for later in onwards:
+            before[later] += 1
     ready = [port for port, count in before.items() if not count]
     heapify(ready)
     order: list[Port] = []
@@ -224,19 +229,9 @@ def _in_order(ways: Ways) -> list[Port]:
     return order
 
 
-def _counts(ways: Ways) -> dict[Port, int]:
-    """Return how many ways lead to each port."""
-    before = dict.fromkeys(ways, 0)
-    for onwards in ways.values():
-        for later in onwards:
-            before[later] += 1
-    return before
-
-
 def cycles(ways: Ways) -> list[set[Port]]:
     """Return the ports of each loop: those that light can reach from each other."""
-    core = among(ways, _going_round(ways))
-    core = among(core, _going_round(backwards(core)))
+    core = among(ways, ways.keys() - set(_in_order(ways)))
     if not core:
         return []
     return [ports for ports in nx.strongly_connected_components(nx.DiGraph(core)) if len(ports) > 1]
@@ -270,18 +265,6 @@ def among(ways: Ways, stored: set[Port]) -> Ways:
         for port, onwards in ways.items()
         if port in stored
     }
-
-
-def _going_round(ways: Ways) -> set[Port]:
-    """Return the ports that are left when those to which no other leads are taken away."""
-    before = _counts(ways)
-    gone = [port for port, count in before.items() if not count]
-    for port in gone:
-        for later in ways[port]:
-            before[later] -= 1
-            if not before[later]:
-                gone.append(later)
-    return ways.keys() - set(gone)
 
 
 def _loop(ways: Ways, together: set[Port], before: Ways) -> Stretch:

@@ -187,7 +187,7 @@ MULTIPLES = [
     *(("{ parameter = 3 }", "'parameter' must be a text"), ("{ scale = 2 }", "'parameter' is m")),
     ('{ parameter = "d", scale = 0 }', "a scale other than 0"),
     ('{ parameter = "d", scale = nan }', "finite real numbers"),
-    ('{ parameter = "d", scale = [1, 2] }', ".scale: [1, 2] must be one number"),
+    ('{ parameter = "d", scale = [1, 2] }', ".scale: [1, 2] is not a number"),
     ('{ parameter = "d", scale = "2 deg" }', "'2 deg' has the unit 'deg', but a pure number"),
     ('{ parameter = "d", scale = "1j" }', "finite real numbers"),
     ('{ parameter = "d", scale = true }', "true is not a number"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from functools import reduce
 from inspect import Parameter as Argument
@@ -45,7 +46,7 @@ from optipath.paths.files.spectrum_tables import (
     spectrum_table,
     written_wavelengths,
 )
-from optipath.values.arrays import array_of
+from optipath.values.arrays import array_of, same
 from optipath.values.curve import CurveSum, WavelengthRange
 from optipath.values.curve_value import CurveValue, curve_values
 from optipath.values.domains import Choice, Domain
@@ -120,7 +121,8 @@ def decode(raw: Any, domain: Domain, parameters: Parameters) -> Any:
 
 def _of_table(raw: dict[str, Any], domain: Domain, parameters: Parameters) -> Any:
     if isinstance(domain, SpectralDomain) and "parameter" not in raw:
-        return _spectrum(raw, parameters)
+        curve = {key: value for key, value in raw.items() if key != _WHEN}
+        return spectrum_of(curve).at(_wavelength(raw, parameters))
     if not raw.keys().isdisjoint(_CURVES):
         return _curve(raw, domain, parameters)
     if raw.keys() & _AFFINE.keys():
@@ -202,7 +204,7 @@ def _affine(raw: Any, domain: Domain, parameters: Parameters) -> Parameter:
         faults.append(f"parameter '{name}' is not declared{did_you_mean(name, parameters)}")
     units = {"scale": "", "offset": domain.unit}
     numbers: dict[str, Any] = {
-        key: faults.attempt(f".{key}", _one_number, raw[key], unit)
+        key: faults.attempt(f".{key}", number_of, raw[key], unit)
         for key, unit in units.items()
         if key in raw
     }
@@ -229,12 +231,6 @@ def _complex(parts: Mapping[str, Any]) -> Any:
         raise UnitError(f"the shapes of {names} do not fit; make all rows equally long") from None
 
 
-def _one_number(raw: Any, unit: str) -> Any:
-    if isinstance(raw, list):
-        raise UnitError(f"{shown(raw)} must be one number")
-    return _number(raw, unit)
-
-
 def _number(raw: Any, unit: str) -> Any:
     if not isinstance(raw, list):
         return number_of(raw, unit)
@@ -259,15 +255,6 @@ def _list(raw: Any, domain: Domain, parameters: Parameters) -> list[Any]:
     domains = chain([FOLLOWED_OUTSIDE if of_indices else each], repeat(each))
     pairs = zip(raw, domains, strict=False)
     return each_entry(pairs, lambda pair: decode(pair[0], pair[1], parameters))
-
-
-def _spectrum(raw: Mapping[str, Any], parameters: Parameters) -> Any:
-    """Return what stands for a spectrum at the wavelength of a run."""
-    faults = Faults()
-    when = faults.attempt("", _wavelength, raw, parameters)
-    spectrum = faults.attempt("", spectrum_of, {key: raw[key] for key in raw if key != _WHEN})
-    faults.refuse()
-    return spectrum.at(when)  # type: ignore[union-attr] # none without faults
 
 
 def _wavelength(raw: Mapping[str, Any], parameters: Parameters) -> Any:
@@ -482,55 +469,21 @@ def _multiple(value: Parameter, unit: str) -> dict[str, Any]:
 
 
 def _material(material: Material) -> dict[str, Any]:
-    """Return the table of a material: of its curve, or of n and k apart."""
+    """Return the shortest table of which a material is read: of a curve, or of n and k apart."""
     n, k = material.n, material.k
-    if isinstance(n, CurveValue) and _are_parts(n, k):
-        return _row(n)
-    # A page with n or k alone, the other being given beside its name.
-    for part, value in (("n", n), ("k", k)):
-        if _is_plain(value) and isinstance(curve := value.curve, PageCurve):
-            apart = isinstance(n, CurveValue) and isinstance(k, CurveValue)
-            apart = apart and _is_usual_part(curve, part)
-            if curve.asked and curve.parts == (part,) and not apart:
-                own = _own_part(curve, n, k)
-                return _row(value) | {key: encode(each, "") for key, each in own.items()}
-    return {"n": encode(n, ""), "k": encode(k, "")}
-
-
-def _are_parts(n: CurveValue, k: Any) -> bool:
-    """Tell whether n and k are those of one curve, at the same wavelength."""
-    if not _is_plain(n) or n.curve.parts[n.place] != "n":
-        return False
-    if not isinstance(k, CurveValue):
-        of_page = isinstance(n.curve, PageCurve)
-        return not of_page and "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
-    same = k.curve == n.curve and k.depends_on == n.depends_on and k.curve.parts[k.place] == "k"
-    return same and _is_plain(k)
-
-
-def _is_plain(value: Any) -> bool:
-    """Tell whether a value follows from a curve, and is no multiple of what does."""
-    return isinstance(value, CurveValue) and value.is_signed and not value.is_negative
-
-
-def _own_part(curve: PageCurve, n: Any, k: Any) -> dict[str, Any]:
-    """Return which of n and k a table has to say beside the name of a material."""
-    own = {part: value for part, value in (("n", n), ("k", k)) if part not in curve.parts}
-    try:
-        usual = Material.named(**curve.asked)
-    except OptipathError:
-        return own  # Without them, it is no material.
-    same = isinstance(usual.n, CurveValue) and usual.n.curve.span == curve.span
-    return {} if same and own == {"k": 0.0} == {"k": usual.k} else own
-
-
-def _is_usual_part(curve: PageCurve, part: str) -> bool:
-    """Tell whether a name by itself gives a curve: an index without k may reach further."""
-    try:
-        usual = getattr(Material.named(**curve.asked), part)
-    except OptipathError:
-        return False
-    return isinstance(usual, CurveValue) and usual.curve == curve
+    arguments: list[Any] = [n, k]
+    for value in arguments:
+        arguments += value.arguments if isinstance(value, CurveValue) else ()
+    known = {one.name: one.alone() for one in arguments if isinstance(one, Parameter)}
+    apart = {"n": encode(n, ""), "k": encode(k, "")}
+    for value, others in ((n, ()), (n, "k"), (k, "n")):
+        # Beside the name of a page, n or k may be given.
+        if isinstance(value, CurveValue) and (isinstance(value.curve, PageCurve) or not others):
+            table = _row(value) | {part: apart[part] for part in others}
+            with suppress(OptipathError):
+                if same(decode(table, INDEX, known), material):
+                    return table
+    return apart
 
 
 def _part(curve: Curve, place: int) -> dict[str, str]:
