@@ -100,7 +100,7 @@ THROUGH = "lamp -> e0, e0 -> eye"
         (
             SCREEN,
             "lamp -> trap, trap.out -> eye, trap.dark -> screen",
-            ["link 'trap.dark -> screen.in' carries no light", "no light there; remove the link"],
+            ["link 'trap.dark -> screen.in' carries no light", "gives none there; remove the link"],
         ),
         ({"trap": Trap()}, "lamp -> trap, trap.out -> eye, trap.dark -> eye", ["carries no light"]),
         (

@@ -111,7 +111,7 @@ def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
             {"inputs": ("x",), "mueller_rows": staticmethod(lambda _: np.eye(4))},
             r"its inputs are 'x'.*mueller_rows lead from 'in' to",
         ),
-        ({"couplings": lambda _: ()}, "carries no light: Own names 'out'"),
+        ({"couplings": lambda _: ()}, "carries no light: Own gives none"),
     ],
 )
 def test_ports_of_other_names_and_without_light_are_told(body, told):

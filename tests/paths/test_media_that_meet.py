@@ -189,7 +189,7 @@ def test_faces_in_space_and_those_that_only_take_over_from_each_other_have_nothi
     path.add("lamp", op.Source(), {"out": op.Frame()}) >> path.add("front", FLAT, frames)
     path["front.transmitted"] >> path.add("back", FOLLOWING, frames)
     path["back.transmitted"] >> path.add("eye", EYE)
-    assert "'back' takes its incidence over (FOLLOWS), but its world frames say" in fault_of(path)
+    assert "before it, without world frames, refracts to it; give the angle" in fault_of(path)
     face = op.Interface(1.0, 0.3, outside=F)
     ends = {"lamp": op.Source(), "half": op.BeamSplitter(), "a": face, "b": face}
     links = "lamp -> half, half.transmitted -> a, a -> b, b -> half.back, half.reflected -> eye"

@@ -156,7 +156,7 @@ def offer(name, **behind):
                 (put(behind="X2.in"), "lets light in"),
                 (put(behind="E"), "'E' has no way out"),
                 (put(behind="X3"), "node .X3. does not exist"),
-                (put("red", behind="X2"), "must be an element such as"),
+                (put("red", behind="X2"), "must be an element, as"),
                 (put(), r"names no link; give behind='node\.port'"),
                 (put(before="X1.back"), r"'X1\.back' is fed by no link"),
                 (put(behind="X2", before="E"), r"'X2\.reflected -> E\.in'; did you mean 'X1"),
@@ -168,7 +168,7 @@ def offer(name, **behind):
                 (swap(op.Polarizer()), r"has no 'X1\.reflected', which"),
                 (swap(op.Detector()), r"has no 'X1\.reflected', which"),
                 (swap(op.Source()), r"has no 'X1\.in', 'X1\.reflected', which"),
-                (swap(1.5), "must be an element such as"),
+                (swap(1.5), "must be an element, as"),
                 (lambda path: path.disconnect("X2", "E"), r"X2\.reflected -> E\.in'; did you mean"),
                 (offer("Q", light="L.out"), "'Q' does not exist"),
                 (offer("X1", light="L.out"), "not go straight through 'X1'"),
@@ -417,7 +417,7 @@ def test_an_azimuth_that_its_link_has_taken_over_is_given_anew_by_a_replacement(
 def test_a_replacement_that_is_turned_otherwise_is_refused():
     path = pane(1.5)
     path.insert("plate", op.Retarder(0.0, azimuth=0.25), behind="polarizer")
-    with pytest.raises(op.PathError, match=r"'interface' by 0\.15.* turned by 0\.4; leave the"):
+    with pytest.raises(op.PathError, match=r"'interface' by 0\.15.* new one by 0\.4; leave its"):
         path.replace("interface", op.Interface(1.6, 0.6, azimuth=0.4))
     path.replace("interface", op.Interface(1.6, 0.6))
     np.testing.assert_allclose(stokes(path), stokes(pane(1.6)), rtol=1e-14)

@@ -45,15 +45,10 @@ class Builder:
         return len(self.steps) - 1
 
     def sum(self, label: str, lights: Sequence[int]) -> int:
-        """Add the sum of several lights; one alone is itself."""
+        """Add the sum of several lights; one alone is itself. Of a junction, `close` says which."""
         if len(lights) == 1:
             return lights[0]
         self.steps.append(Step(label, tuple(lights)))
-        return len(self.steps) - 1
-
-    def junction(self, label: str) -> int:
-        """Add a sum whose lights are not all there yet; `close` says which they are."""
-        self.steps.append(Step(label, ()))
         return len(self.steps) - 1
 
     def close(self, inputs: Mapping[int, Sequence[int]]) -> None:
@@ -134,7 +129,7 @@ class _Chains:
             self._once = loop is None
             junctions = dict.fromkeys(sorted(loop.junctions) if loop else ())
             for junction in junctions:
-                self._waiting[junction] = self.builder.junction(old.steps[junction].label), []
+                self._waiting[junction] = self.builder.sum(old.steps[junction].label, ()), []
             for light in lights:
                 if light not in junctions:
                     self._waiting[light] = self._of(light, old.steps[light])

@@ -80,12 +80,9 @@ def _missing_end_faults(wiring: Wiring) -> Iterator[str]:
 
 def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
     for link in wiring.dark_links:
-        element, leaves = wiring.elements[link[0]], link[2][0]
+        element = wiring.elements[link[0]]
         kind = element.kind or type(element).__name__
-        yield (
-            f"link '{link_text(link)}' carries no light: {kind} names '{leaves}', but gives no "
-            f"light there; remove the link"
-        )
+        yield f"link '{link_text(link)}' carries no light: {kind} gives none there; remove the link"
 
 
 def _feeding_faults(wiring: Wiring) -> Iterator[str]:
@@ -93,21 +90,14 @@ def _feeding_faults(wiring: Wiring) -> Iterator[str]:
         element = wiring.elements[name]
         if len(links) > 1 and not element.merges:
             feeders = " and ".join(f"'{start}.{leaves}'" for start, _, (leaves, _) in links)
-            kind = element.kind or type(element).__name__
-            yield (
-                f"port '{name}.{port}' is fed by {feeders}, but {kind} does not merge light; "
-                f"put a Combiner before it"
-            )
+            merges = f"{element.kind or type(element).__name__} does not merge light"
+            yield f"port '{name}.{port}' is fed by {feeders}, but {merges}; put a Combiner there"
 
 
 def _reach_faults(wiring: Wiring) -> Iterator[str]:
     """Yield where a link is missing, and not what is cut off in consequence."""
-    ports = {
-        name: [(name, port) for port in (*element.inputs, *element.outputs)]
-        for name, element in wiring.elements.items()
-    }
-    dark = {name for name, each in ports.items() if wiring.lit.isdisjoint(each)}
-    missing = {name for name, each in ports.items() if wiring.useful.isdisjoint(each)}
+    dark = wiring.elements.keys() - {name for name, _ in wiring.lit}
+    missing = wiring.elements.keys() - {name for name, _ in wiring.useful}
     for name in _firsts(wiring.graph.subgraph(dark)):
         entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
         yield f"node '{name}' is reached by no source; link one to {entries}"
@@ -241,10 +231,8 @@ class Composer:
         faults += whole_number("threads", self.threads)
         faults += self._tolerance_faults()
         if self.composing == "jones" and self.model in MODELS[:-1]:
-            faults.append(
-                f"model '{self.model}' is not for composing='jones', which carries columns whole; "
-                f"use model 'auto' or composing='stokes'"
-            )
+            cure = "use model 'auto' or composing='stokes'"
+            faults.append(f"model '{self.model}' is not for composing='jones'; {cure}")
         if faults:
             raise ComposerError(*faults)
 
@@ -316,13 +304,7 @@ class Composer:
 
 @contextmanager
 def put_off() -> Iterator[None]:
-    """Collect no garbage for a while: each time, all elements of a long path are looked at.
-
-    >>> import gc
-    >>> with put_off():
-    ...     print(gc.isenabled())
-    False
-    """
+    """Collect no garbage for a while: each time, all elements of a long path are looked at."""
     enabled = gc.isenabled()
     gc.disable()
     try:

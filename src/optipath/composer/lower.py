@@ -44,8 +44,7 @@ def refuse_no_jones(program: Program) -> None:
     """Refuse what Jones columns cannot pass: elements that may depolarise, and loops."""
     cure = "compose with composing='stokes'"
     faults = [
-        f"'{step.label}' has a whole Mueller matrix, which may depolarise, and no Jones matrix; "
-        f"{cure}"
+        f"'{step.label}' has a Mueller matrix, which may depolarise, and no Jones matrix; {cure}"
         for step in program.steps
         if step.evaluation is not None
         and (structure := program.evaluations[step.evaluation].kernel.structure)
@@ -77,7 +76,8 @@ class _Lowering:
             element, light = self.wiring.elements[name], self.lights[name, port]
             response = getattr(element, "response", None)
             if response is not None:
-                light = self._step(f"{name}.response", (light,), Operation(RESPONSE, (response,)))
+                reads = self._lowered(Operation(RESPONSE, (response,)))
+                light = self.builder.step(f"{name}.response", (light,), reads)
             components = _COMPONENTS[getattr(element, "reads", "stokes")]
             frame = self._reading_frame(name, port)
             ends[element.detects][name] = Reading(light, frame, components)
@@ -104,7 +104,7 @@ class _Lowering:
         """Add the steps that make the light at the ports of a stretch."""
         outside = {junction: self._arriving(junction) for junction in stretch.junctions}
         for junction in outside:
-            self.lights[junction] = self.builder.junction(".".join(junction))
+            self.lights[junction] = self.builder.sum(".".join(junction), ())
         # The junctions come first.
         for port in stretch.ports[len(outside) :]:
             self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
@@ -135,12 +135,15 @@ class _Lowering:
         """Return the light of a link in the frame that it enters."""
         start, _, (leaves, _) = link
         light, turn = self.lights[start, leaves], alignment(self.wiring, link)
-        return light if turn is None else self._step(link_text(link), (light,), turn)
+        if turn is None:
+            return light
+        return self.builder.step(link_text(link), (light,), self._lowered(turn))
 
     def _pass(self, name: str, coupling: Coupling) -> int:
         label = f"{name}.{coupling.leaves}"
+        operations = map(self._lowered, coupling.operations)
         if coupling.enters is None:
-            light = self._step(label, (), coupling.operations[0], port=True)
+            light = self.builder.step(label, (), next(operations), port=True)
             self.sources[name] = (light, self._frame_behind(name, coupling.leaves))
             return light
         light = self.lights[name, coupling.enters]
@@ -148,20 +151,10 @@ class _Lowering:
         if presence is not None and presence.known and not np.any(presence.numbers()):
             return light
         last = len(coupling.operations) - 1
-        for place, operation in enumerate(coupling.operations):
-            bounces = int(coupling.reflects and place == last)
-            light = self._step(label, (light,), operation, presence, port=True, bounces=bounces)
+        for place, operation in enumerate(operations):
+            about = {"port": True, "bounces": int(coupling.reflects and place == last)}
+            light = self.builder.step(label, (light,), operation, presence, **about)
         return light
-
-    def _step(
-        self,
-        label: str,
-        inputs: tuple[int, ...],
-        operation: Operation,
-        presence: Operand | None = None,
-        **about: Any,
-    ) -> int:
-        return self.builder.step(label, inputs, self._lowered(operation), presence, **about)
 
     def _lowered(self, operation: Operation) -> Operation:
         """Return an operation by the method, with operands and results of such as arguments."""

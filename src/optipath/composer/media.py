@@ -56,11 +56,11 @@ class Media:
         faults = first_faults([agreement for agreement in self._all if not agreement.is_open])
         for meeting in self.meetings.wedges:
             (name, _), (own, _) = meeting.leaves, meeting.enters
-            faults.append(
-                f"light goes to and fro between '{name}' and '{own}', which says parallel=False: "
-                f"what comes back has another incidence than the element has; leave parallel=False "
-                f"out, or add elements of their own for the light that comes back"
+            says = (
+                f"'{own}', which says parallel=False, though light comes back at another incidence"
             )
+            cure = "leave that out, or add elements of their own for the light that comes back"
+            faults.append(f"light goes to and fro between '{name}' and {says}; {cure}")
         return faults
 
     @cached_property
@@ -75,7 +75,8 @@ class Media:
                 continue
             (start, leaves), (end, enters) = meeting.leaves, meeting.enters
             element: Any = self.elements[end]
-            first, second = self._medium(meeting.leaves), element.medium_at(enters)
+            before: Any = self.elements[start]
+            first, second = before.medium_at(leaves), element.medium_at(enters)
             in_front, results[meeting.sides] = enters == "in", None
             absorbs = _absorptions(first, second, element)
             if absorbs or not are_same(first, second):
@@ -155,10 +156,6 @@ class Media:
     def _follows(self, name: str, field: str) -> bool:
         return field in self.following.get(name, ())
 
-    def _medium(self, port: Port) -> Any:
-        element: Any = self.elements[port[0]]
-        return element.medium_at(port[1])
-
     def _measures_in_front(self, port: Port) -> bool:
         """Tell whether a boundary has its incidence in the medium in front."""
         face: Any = self.elements[port[0]]
@@ -210,6 +207,9 @@ def are_same(first: Any, second: Any) -> bool:
     return None not in keys and keys == others
 
 
+_CLEAR = "an index without k there, and link a Medium between, which absorbs on the way"
+_OWN_FACE = "give each light a face of its own"
+
 _OF_INDEX, _OF_SINGLE_INDEX = 1e-9, 2.0**-23
 """How far apart two indices may be, as a share of them."""
 
@@ -250,20 +250,15 @@ class SameMedium(Agreement):
         side = "behind" if port == "transmitted" else "in front of"
         where = f"{side} '{name}' (by '{self.leaves}')"
         if len(k) == 1 and numbers[2]:
-            return (
-                f"'{self.enters}' is lit from a medium that absorbs, with k = {k[0]} {where}; give "
-                f"'{name}' an index without k there, and link a Medium between, which absorbs on "
-                f"the way"
-            )
+            absorbs = f"is lit from a medium that absorbs, with k = {k[0]} {where}"
+            return f"'{self.enters}' {absorbs}; give '{name}' {_CLEAR}"
         before = _called(before)
         if any(numbers[2:]):
             before, behind = f"{before} and k = {k[0]}", f"{behind} with k = {k[1]}"
         is_lit = f"'{self.enters}' is lit from {before} {where}"
         if self.follows:
-            return (
-                f"{is_lit}, but has taken its {self.field} over (FOLLOWS) from other light, in "
-                f"{_called(behind)}; give each light a face of its own"
-            )
+            taken = f"has taken its {self.field} over (FOLLOWS) from other light"
+            return f"{is_lit}, but {taken}, in {_called(behind)}; {_OWN_FACE}"
         is_open = isinstance(self.operands[1].value, Parameter) or 0 in varying
         cures = [] if is_open or any(numbers[2:3]) else [f"{self.field} = {numbers[0]:.12g}"]
         if self.enters.endswith(".back"):
@@ -348,10 +343,8 @@ class SnellsLaw(Agreement):
         enters = f"light of '{self.leaves}' enters '{self.enters}', but"
         differ = f"n sin(incidence) is {sines} ({argument})"
         if self.follows:
-            return (
-                f"{enters} '{own}' has taken its incidence over (FOLLOWS) from other light: "
-                f"{differ}; give each light a face of its own"
-            )
+            taken = f"'{own}' has taken its incidence over (FOLLOWS) from other light"
+            return f"{enters} {taken}: {differ}; {_OWN_FACE}"
         cures = []
         for follows, no in (("op.FOLLOWS", "=False"), (FOLLOWS.in_file, " = false")):
             why = "light goes to and fro between them, so they are parallel"
@@ -392,8 +385,7 @@ def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
             result.nodes[name]["element"] = taking.elements[name]
     messages = [fault for several in faults.values() for fault in several]
     messages = messages or [
-        f"'{name}' takes over (FOLLOWS) what the boundaries before it take over, too; give it at "
-        f"one of them"
+        f"'{name}' takes over (FOLLOWS) what the boundaries before it take over, too; give one it"
         for name in names
         if taking.elements[name].followed()
     ]
@@ -407,7 +399,6 @@ class _Taking:
         self.given, self.elements = elements, dict(elements)
         self.fronts = _by_end(m for m in meetings.all if m.enters[1] == "in")
         self.layers = _by_end(meetings.in_layers)
-        self.in_space = _by_end(meetings.in_space)
         behind: dict[str, set[str]] = {}
         for name, several in [*self.fronts.items(), *self.layers.items()]:
             for meeting in several:
@@ -428,7 +419,7 @@ class _Taking:
                 if not element.lit_from_absorbing:
                     media = list(map(_real, media))
                 taken |= dict(zip(["outside"], media, strict=False))
-            elif _may_measure(element) and (pairs := self._angles(name)):
+            elif element.incidence_in is None and (pairs := self._angles(name)):
                 taken |= dict(zip(["incidence", "incidence_in"], pairs[0], strict=True))
         if taken:
             self.elements[name] = element.taking_over(**taken)
@@ -454,28 +445,21 @@ class _Taking:
         medium = element.medium_at("in")
         if "outside" in missing:
             if not self.fronts.get(name):
-                yield (
-                    f"{takes} no boundary before it sends light to {port}; give the index of the "
-                    f"medium in front"
-                )
+                yield f"{takes} no boundary before it sends light to {port}; give the index"
         elif "outside" in self.given[name].followed():
             k = None if element.lit_from_absorbing else absorption_of(medium)
             if k is not None and k.known and not k.traced and np.any(k.numbers()):
-                yield (
-                    f"{takes} the medium before {port} absorbs; give that an index without k, and "
-                    f"link a Medium between, which absorbs on the way"
-                )
+                yield f"{takes} the medium before {port} absorbs; give that {_CLEAR}"
             elif any(_differ(index, medium) for index in self._media(name)):
-                yield f"{takes} light of several media comes to {port}; give each a face of its own"
-        if "incidence" in missing and not (_may_measure(element) and self.layers.get(name)):
-            why = "no parallel boundary before it sends it light that it has refracted"
-            cure = "give the angle"
-            if not _may_measure(element):
-                why = "has an incidence_in of its own, which comes with it"
-                cure = "leave that out"
-            elif name in self.in_space:
-                why = "its world frames say how it stands to what is before it"
-            yield f"'{name}' takes its incidence over (FOLLOWS), but {why}; {cure}"
+                yield f"{takes} light of several media comes to {port}; {_OWN_FACE}"
+        if "incidence" not in missing:
+            return
+        why = "no parallel boundary before it, without world frames, refracts to it; give the angle"
+        if element.incidence_in is not None:
+            why = "has an incidence_in of its own, which comes with it; leave that out"
+        elif self.layers.get(name):
+            return
+        yield f"'{name}' takes its incidence over (FOLLOWS), but {why}"
 
 
 def _by_end(meetings: Any) -> dict[str, list[Meeting]]:
@@ -483,10 +467,6 @@ def _by_end(meetings: Any) -> dict[str, list[Meeting]]:
     for meeting in meetings:
         results.setdefault(meeting.enters[0], []).append(meeting)
     return results
-
-
-def _may_measure(element: Any) -> bool:
-    return element.incidence_in is None
 
 
 def _real(index: Any) -> Any:

@@ -156,11 +156,6 @@ class Meetings:
         """The meetings of two faces whose directions no frames in the world give."""
         return [m for m in self.all if self._of_faces(m) and not self._is_in_space(m)]
 
-    @property
-    def in_space(self) -> list[Meeting]:
-        """The meetings of two faces whose directions their frames in the world give."""
-        return [m for m in self.all if self._of_faces(m) and self._is_in_space(m)]
-
     def _is_shown(self, meeting: Meeting) -> bool:
         """Tell whether a face says that it is not parallel to the one before."""
         face: Any = self.wiring.elements[meeting.enters[0]]

@@ -195,33 +195,23 @@ class Values:
             if not alike and not (yields and dimension_of(known.unit) == "length"):
                 yield self._difference(use, known)
             if use.domain.tail != tails[name]:
-                yield (
-                    f"parameter '{name}' at {use.owner} has another shape than elsewhere; "
-                    f"use two names"
-                )
+                yield f"parameter '{name}' at {use.owner} has another shape; use two names"
             taken_over = self._is_taken_over(use)
             if use.value.optional and not taken_over and not self._can_be_absent(use.owner):
-                yield (
-                    f"parameter '{name}' is optional, but the element of {use.owner} cannot be "
-                    f"left out; only one that light goes straight through can"
-                )
+                why = f"{use.owner} cannot be left out; only what light goes straight through can"
+                yield f"parameter '{name}' is optional, but the element of {why}"
 
     def _difference(self, use: Use, known: Parameter) -> str:
         """Say in what a parameter differs from the one of its name that is met first."""
         if known.bound and not use.value.bound:
-            return (
-                f"parameter '{known.name}' is open at {use.owner}, and bound elsewhere to "
-                f"{known.text(known.default)}; bind it where the path is whole"
-            )
+            where = f"is open at {use.owner}, and bound elsewhere to {known.text(known.default)}"
+            return f"parameter '{known.name}' {where}; bind it where the path is whole"
         first = next(u for u in self.uses if getattr(u.value, "name", None) == known.name)
         that, this = (
             f"{one.owner} ({one.domain.described()}{f' in {unit}' if unit else ''})"
             for one, unit in ((first, known.unit), (use, use.value.unit))
         )
-        return (
-            f"parameter '{known.name}' at {this} differs from that at {that}; use one Parameter, "
-            f"or two names"
-        )
+        return f"parameter '{known.name}' at {this} differs from that at {that}; use two names"
 
     def _optional_faults(self) -> Iterator[str]:
         optional: dict[str, set[str]] = {}
@@ -230,10 +220,8 @@ class Values:
                 optional.setdefault(use.owner.partition(".")[0], set()).add(use.value.name)
         for name, several in optional.items():
             if len(several) > 1:
-                yield (
-                    f"'{name}' has several optional parameters ({', '.join(sorted(several))}); "
-                    f"one is enough to leave it out"
-                )
+                names = ", ".join(sorted(several))
+                yield f"'{name}' has several optional parameters ({names}); one leaves it out"
 
     def _can_be_absent(self, owner: str) -> bool:
         name, _, part = owner.partition(".")

@@ -86,27 +86,22 @@ def _self_placed_fault(wiring: Wiring, link: Link) -> str:
     if any(placed):
         argument, own = (end, start) if placed[0] else (start, end)
         if wiring.graph.nodes[argument]["frames"]:
-            return (
-                f": '{argument}' has world frames of its own, and '{own}' those of its vertices; "
-                f"place '{argument}' relatively"
-            )
+            frames = f"'{argument}' has world frames of its own, and '{own}' those of its vertices"
+            return f": {frames}; place '{argument}' relatively"
     return ""
 
 
 def _between_faults(wiring: Wiring) -> Iterator[str]:
     """Yield what is wrong with elements that stand relatively between two vertices."""
-    for name in (name for name in wiring.elements if name in wiring.self_placed):
+    for name in filter(wiring.self_placed.__contains__, wiring.elements):
         waiting = [p for p in wiring.graph.predecessors(name) if p not in wiring.self_placed]
         seen = set(waiting)
         while waiting:
             between = waiting.pop()
             for before in wiring.graph.predecessors(between):
                 if before in wiring.self_placed:
-                    yield (
-                        f"'{between}' stands relatively between the vertices '{before}' and "
-                        f"'{name}', whose frames differ; put it before the first vertex or "
-                        f"behind the last"
-                    )
+                    ends = f"the vertices '{before}' and '{name}', whose frames differ"
+                    yield f"'{between}' stands relatively between {ends}; put it before or behind"
                 elif before not in seen:
                     seen.add(before)
                     waiting.append(before)
@@ -168,12 +163,7 @@ def is_zero(azimuth: Any) -> bool:
 
 
 def turn_text(turn: Any) -> str:
-    """Return a turn as people write it.
-
-    >>> from optipath.values.parameters import Parameter
-    >>> turn_text(0.5), turn_text(-2 * Parameter("rho"))
-    ('0.5', '-2 * rho')
-    """
+    """Return a turn as people write it."""
     return turn.formula if isinstance(turn, Parameter) else shown(turn)
 
 

@@ -295,10 +295,8 @@ def by_name(exact: Reduction, model: str) -> Reduction:
             cure = f"use model '{exact.model}' or 'auto'"
             if not exact.program.loops:
                 cure += ", or give a tolerance, and let all read 'intensity'"
-            raise ComposerError(
-                f"model '{model}' is not exact for this path: S{alive[-1]} is alive at "
-                f"'{exact.program.steps[light].label}'; {cure}"
-            )
+            where = f"S{alive[-1]} is alive at '{exact.program.steps[light].label}'"
+            raise ComposerError(f"model '{model}' is not exact for this path: {where}; {cure}")
     return replace(exact.by(model), reason=f"asked for by name; {exact.reason}")
 
 

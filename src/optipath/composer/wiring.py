@@ -288,10 +288,7 @@ def sharing_faults(wiring: Wiring) -> Iterator[str]:
             yield Fault(
                 f"port '{name}.{port}' feeds {ends}, and each would get all of its light",
                 Cure.of(
-                    (
-                        "put one behind the other, share the light with a BeamSplitter, or read it "
-                        "with a tap, which takes nothing: {}"
-                    ).format,
+                    "put one behind the other, share it by a BeamSplitter, or tap it: {}".format,
                     "connect(..., tap=True)",
                     "tap = true below its [[links]]",
                 ),
@@ -314,10 +311,8 @@ def tap_faults(wiring: Wiring) -> Iterator[str]:
             port = waiting.pop()
             met = light_of.setdefault(port, text)
             if met is not text:
-                yield (
-                    f"the light of {text} meets {met} at '{'.'.join(port)}', where it "
-                    f"would be counted twice; let it end in a Detector of its own, or share "
-                    f"the light with a BeamSplitter"
-                )
+                cure = "let it end in a Detector of its own, or share it by a BeamSplitter"
+                twice = f"at '{'.'.join(port)}', where it would be counted twice"
+                yield f"the light of {text} meets {met} {twice}; {cure}"
                 break
             waiting += [later for later in onwards[port] if light_of.get(later) is not text]

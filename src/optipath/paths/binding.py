@@ -56,10 +56,8 @@ def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> 
     if any(map(is_by_wavelength, values.values())):
         values, placed = _materials_placed(values, known.uses)
         if placed and not for_good:
-            raise ParameterError(
-                f"parameter '{min(placed)}' cannot have as its default what depends on "
-                f"other parameters; bind it, by path.bind({min(placed)}=...)"
-            )
+            cure = f"other parameters; bind it, by path.bind({min(placed)}=...)"
+            raise ParameterError(f"'{min(placed)}' has no default that depends on {cure}")
         known = Values(exchanged(known.graph, placed))
         # A material may follow from a wavelength to which the path is bound already.
         wholly = {name: p for name, p in known.parameters.items() if p.bound}
@@ -73,10 +71,8 @@ def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> 
             faults.append(unknown_parameter(name, known_names))
         elif parameters[name].bound:
             bound_to = parameters[name].text(parameters[name].default)
-            faults.append(
-                f"parameter '{name}' is bound to {bound_to} already; give the "
-                f"value where it is bound, or leave it open there"
-            )
+            cure = "give the value where it is bound, or leave it open there"
+            faults.append(f"parameter '{name}' is bound to {bound_to} already; {cure}")
         elif value is None:
             absent = f"; {name}='{ABSENT}' leaves its element out" * parameters[name].optional
             faults.append(f"parameter '{name}' is None, which is no value; give one{absent}")
@@ -149,29 +145,21 @@ def _faults(
     """Yield why a material cannot stand where the parameter does, or give its k there."""
     for use in places:
         if not use.value.is_signed or use.value.is_negative:
-            yield (
-                f"parameter '{name}' stands as {use.value.formula} at {use.owner}, for which no "
-                f"Material can be given; let '{name}' itself stand there"
-            )
+            cure = f"for which no Material can be given; let '{name}' itself stand there"
+            yield f"parameter '{name}' stands as {use.value.formula} at {use.owner}, {cure}"
     for owner, k in extinctions.items():
         is_open = isinstance(k, Parameter) and not k.bound and k.is_signed and not k.is_negative
         if is_open and k.name in values:
-            yield (
-                f"parameter '{k.name}' is given by '{name}', a Material, which has its own k; "
-                f"leave {k.name} out, or make a Material of that k"
-            )
+            cure = f"which has its own k; leave {k.name} out, or make a Material of that k"
+            yield f"parameter '{k.name}' is given by '{name}', a Material, {cure}"
         elif is_open and {use.owner for use in places_of(uses, k.name)} <= {*extinctions}:
             continue
         elif isinstance(k, Parameter) or not same(k, material.k):
-            yield (
-                f"{owner} is {k.formula if isinstance(k, Parameter) else k}, but {material} for "
-                f"'{name}' has a k of its own; let an open parameter stand there, and nowhere else"
-            )
+            k_text = k.formula if isinstance(k, Parameter) else k
+            cure = "let an open parameter stand there, and nowhere else"
+            yield f"{owner} is {k_text}, but {material} for '{name}' has a k of its own; {cure}"
     if extinctions and len({use.owner for use in places}) > len(extinctions):
-        yield (
-            f"parameter '{name}' is n beside a k in one place, and stands without a k in another; "
-            f"use two names"
-        )
+        yield f"parameter '{name}' is n beside a k, and without a k elsewhere; use two names"
 
 
 def cases_left(cases: Mapping[str, Case], known: Container[str]) -> dict[str, Case]:
@@ -235,10 +223,8 @@ class PlaceChoice:
         texts = [self.node, *(text for pair in pairs for text in pair)]
         named = pairs and all(isinstance(text, str) and text.strip() for text in texts)
         if not named or not isinstance(self.help, str):
-            raise PathError(
-                f"a choice of places is a node and, behind, a port for each word, not "
-                f"{shown(self.node)} and {shown(self.behind)}"
-            )
+            given = f"for each word, not {shown(self.node)} and {shown(self.behind)}"
+            raise PathError(f"a choice of places is a node and, behind, a port {given}")
         object.__setattr__(self, "behind", dict(self.behind))
 
     def renamed(self, names: Mapping[str, str]) -> PlaceChoice:

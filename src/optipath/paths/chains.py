@@ -65,17 +65,13 @@ class Histories:
 def histories(
     materials: Sequence[Any], events: Any, ids: Any, lengths: Any, batch: tuple[int, ...]
 ) -> Histories:
-    """Return the histories of chains whose points have a batch of this shape.
-
-    >>> histories((1.5, 1.0), ["TT", "R"], None, None, (2,)).events.tolist()
-    [[1.0, 1.0], [0.0, 2.0]]
-    """
+    """Return the histories of chains whose points have a batch of this shape."""
     chosen = known_lengths = None
     if ids is not None:
         chosen = _real_numbers("ids", ids)
         if not chosen.ndim or not chosen.shape[-1]:
-            shape = f"have shape (..., m), one for each vertex, not {chosen.shape}"
-            raise ValueFault(f"ids must {shape}")
+            shape = f"(..., m), one for each vertex, not {chosen.shape}"
+            raise ValueFault(f"ids must have shape {shape}")
     count = len(materials) if chosen is None else chosen.shape[-1]
     if lengths is not None:
         known_lengths = _real_numbers("lengths", lengths)
@@ -111,11 +107,7 @@ def masked(chains: Histories, bad: Bools) -> Histories:
 
 
 def numbers_of_events(chains: Histories) -> Floats:
-    """Return the events of histories by numbers, shape (..., m).
-
-    >>> numbers_of_events(Histories((1.5, 1.0), "RT"))
-    array([0., 1.])
-    """
+    """Return the events of histories by numbers, shape (..., m)."""
     if isinstance(chains.events, np.ndarray):
         return chains.events
     return events_of(letters_of(chains.events, chains.count), None)
@@ -136,16 +128,13 @@ def letters_of(events: Any, count: int) -> Letters:
     letters = np.ascontiguousarray(texts).view(np.uint32).reshape(*texts.shape, width)
     if texts.ndim < 2:
         if width > count:
-            raise ValueFault(
-                f"events has {width} letters for a chain of {count} vertices at most; {_CURE}"
-            )
+            many = f"{width} letters for a chain of {count} vertices at most"
+            raise ValueFault(f"events has {many}; {_CURE}")
         room = np.zeros((*texts.shape, count - width), np.uint32)
         return np.concatenate([letters, room], axis=-1)
     if texts.shape[-1] != count or width > 1:
-        raise ValueFault(
-            f"events is an array of {texts.shape} texts of up to {width} letters; give a text for "
-            f"each chain, in one row, or an array of shape (..., {count}) of single letters"
-        )
+        cure = f"a text for each chain, in one row, or single letters of shape (..., {count})"
+        raise ValueFault(f"events has shape {texts.shape}, of up to {width} letters; give {cure}")
     return letters[..., 0]
 
 
@@ -194,12 +183,7 @@ def _refuse(what: str, numbers: npt.NDArray[Any], bad: Bools, cure: str) -> None
 
 
 def ids_within(numbers: npt.NDArray[Any], media: int, ended: Bools) -> npt.NDArray[Any]:
-    """Return which medium is behind each vertex (..., m) of each chain.
-
-    >>> ended = np.array([[False, False], [False, True]])
-    >>> ids_within(np.array([[0, 1], [1, -1]]), 2, ended).tolist()
-    [[0, 1], [1, 0]]
-    """
+    """Return which medium is behind each vertex (..., m) of each chain."""
     with np.errstate(invalid="ignore"):
         whole = np.where(ended, 0, numbers)
     bad = (whole < 0) | (whole >= media)
@@ -209,11 +193,7 @@ def ids_within(numbers: npt.NDArray[Any], media: int, ended: Bools) -> npt.NDArr
 
 
 def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any]) -> tuple[Any, ...]:
-    """Return the medium behind each vertex by ids (..., m), an array over chains each.
-
-    >>> media_by_ids([1.5, 1.0], np.array([[0, 1], [1, 1]]))
-    (array([1.5, 1. ]), array([1., 1.]))
-    """
+    """Return the medium behind each vertex by ids (..., m), an array over chains each."""
     n, k = np.ones(len(materials)), np.zeros(len(materials))
     for place, material in enumerate(materials):
         name = f"materials[{place}]"
@@ -228,17 +208,11 @@ def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any]) -> tuple[Any, 
 
 
 def index_parts(name: str, medium: Any) -> tuple[Floats, Floats]:
-    """Return n and k of a medium as numbers.
-
-    >>> index_parts("gold", 0.2 + 3j)
-    (array(0.2), array(3.))
-    """
+    """Return n and k of a medium as numbers."""
     parts = (medium.n, medium.k) if isinstance(medium, Material) else (medium,)
     if any(isinstance(part, Parameter) or is_traced(part) for part in parts):
-        raise ValueFault(
-            f"{name} is given when the path runs, but chains that differ need numbers; give a "
-            f"number here, and make a path for each value"
-        )
+        cure = "chains that differ need numbers; give one here, and make a path for each value"
+        raise ValueFault(f"{name} is given when the path runs, but {cure}")
     if isinstance(medium, Material):
         n, k = (domain.check(part, value) for part, value, domain in INDEX.parts(name, medium))
     else:
@@ -300,11 +274,7 @@ def known(value: Any) -> Any:
 
 
 def known_index(medium: Any) -> tuple[Floats, Floats] | None:
-    """Return n and k of a medium; None where they are not known.
-
-    >>> known_index(1.5 + 2j), known_index(Parameter("n"))
-    ((array(1.5), array(2.)), None)
-    """
+    """Return n and k of a medium; None where they are not known."""
     if isinstance(medium, Material):
         n, k = known(medium.n), known(medium.k)
         medium = None if n is None or k is None else Material(n, k)
@@ -318,9 +288,7 @@ def normals_checked(
     """Return the chains of points (..., m + 2, 3) whose normals (..., m, 3) are theirs."""
     sides = _sides(chains, outside)
     if sides is None:
-        raise ValueFault(
-            "normals that refract are checked against media that are known; leave them out"
-        )
+        raise ValueFault("normals that refract need media that are known; leave them out")
     normals = as_argument("the array of normals", normals)
     check_broadcast({"vertices": points.shape[:-2], "normals": normals.shape[:-2]})
     ended = chains.ended
@@ -361,9 +329,8 @@ def _turned_back(points: Floats, ended: npt.NDArray[np.bool_]) -> Floats:
     batch = np.broadcast_shapes(points.shape[:-2], ended.shape[:-1])
     result = np.array(np.broadcast_to(points, (*batch, *points.shape[-2:])))
     for place in range(ended.shape[-1]):
-        np.copyto(
-            result[..., place + 2, :], result[..., place, :], where=ended[..., place, np.newaxis]
-        )
+        where = ended[..., place, np.newaxis]
+        np.copyto(result[..., place + 2, :], result[..., place, :], where=where)
     return result
 
 
@@ -391,9 +358,9 @@ def refuse_doubtful(chains: Histories, vertices: Any, outside: Any, there: Any) 
         )
         front = behind
     if readings:
+        mirrors = f"events='{REFLECTS * len(events)}' where it is reflected"
         raise ValueFault(
-            f"{readings}; say which, events='{REFLECTS * len(events)}' where it is reflected, "
-            f"events='{events}' where it goes through"
+            f"{readings}; say which, {mirrors}, events='{events}' where it goes through"
         )
 
 

@@ -96,10 +96,8 @@ def _turning_faults(last: PathGraph) -> Iterator[str]:
     enters, leaves = (natural_of(element, out=out) for out in (False, True))
     ways = [way for way in couplings_of(element) if (way.enters, way.leaves) == (enters, leaves)]
     if not any(way.reflects for way in ways) or element.self_placed:
-        yield (
-            f"light does not turn back at '{name}', which is given last; give a Mirror(), or "
-            f"another that reflects by its natural way"
-        )
+        cure = "give a Mirror(), or another that reflects by its natural way"
+        yield f"light does not turn back at '{name}', which is given last; {cure}"
     incidence = getattr(element, "incidence", 0.0)
     if incidence is FOLLOWS or not vanishes(incidence):
         yield f"light turns back at '{name}' at normal incidence alone; give it an incidence of 0.0"
@@ -112,9 +110,7 @@ def _piece_faults(pieces: list[PathGraph]) -> Iterator[str]:
             element = piece.element(name)
             if not element.inputs or not element.outputs:
                 where = "ends" if element.inputs else "begins"
-                yield (
-                    f"light {where} at '{name}'; let op.there_and_back(...) stand between: "
-                    f"Source() >> op.there_and_back(...) >> Detector()"
-                )
+                cure = "Source() >> op.there_and_back(...) >> Detector()"
+                yield f"light {where} at '{name}'; let op.there_and_back(...) stand between: {cure}"
         for name in piece.choices:
             yield f"choice '{name}' moves a node on the way there alone; give a chain without it"

@@ -52,14 +52,7 @@ _LONGEST = 12
 
 
 def name_by_kind(element: Element) -> str:
-    """Return what a node of an element is called in a chain: its kind, or that of its class.
-
-    >>> from optipath.elements.splitters import BeamSplitter
-    >>> from optipath.elements.element import Element
-    >>> class WavePlate(Element): ...
-    >>> name_by_kind(BeamSplitter()), name_by_kind(WavePlate())
-    ('beam-splitter', 'wave-plate')
-    """
+    """Return what a node of an element is called in a chain: its kind, or that of its class."""
     words = re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "-", type(element).__name__).lower()
     return (element.kind or words).replace(".", "-")
 
@@ -168,12 +161,7 @@ def _names(first: nx.MultiDiGraph, second: nx.MultiDiGraph) -> dict[str, str]:
 
 
 def next_by_kind(name: str, element: Element, taken: Collection[str]) -> str:
-    """Return the next name by the kind of an element; empty where its name is of its own.
-
-    >>> from optipath.elements.splitters import BeamSplitter
-    >>> next_by_kind("beam-splitter", BeamSplitter(), {"beam-splitter"})
-    'beam-splitter-2'
-    """
+    """Return the next name by the kind of an element; empty where its name is of its own."""
     kind = name_by_kind(element)
     if not re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name):
         return ""
@@ -188,10 +176,8 @@ def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any) -> None:
     try:
         total = _sum(before, turn)
     except OptipathError:
-        raise PathError(
-            f"'{link[1]}' would be turned by {turn_text(before)} and by {turn_text(turn)}, and no "
-            f"one azimuth does for both"
-        ) from None
+        turns = f"by {turn_text(before)} and by {turn_text(turn)}, and no one azimuth does for both"
+        raise PathError(f"'{link[1]}' would be turned {turns}") from None
     _give_azimuth_to_links(graph, link)
     graph.edges[link]["azimuth"] = None if is_zero(total) else total
 
@@ -227,11 +213,7 @@ def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
 
 
 def are_alike(first: Any, second: Any) -> bool:
-    """Tell whether two turns, in rad, are the same but for rounding there and back.
-
-    >>> are_alike(0.7, 0.7 - 0.9 + 0.9), are_alike(0.7, 0.8)
-    (True, False)
-    """
+    """Tell whether two turns, in rad, are the same but for rounding there and back."""
     try:
         rest = _sum(first, -second)
     except OptipathError:
@@ -276,15 +258,7 @@ def _sum(first: Any, second: Any) -> Any:
 
 
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
-    """Raise unless a port of a node is one of those given.
-
-    >>> from optipath.elements.splitters import BeamSplitter
-    >>> try:
-    ...     check_port(BeamSplitter(), "bs", "transmited", BeamSplitter.outputs)
-    ... except PathError as error:
-    ...     print(error)
-    port 'bs.transmited' does not exist; did you mean 'bs.transmitted'?
-    """
+    """Raise unless a port of a node is one of those given."""
     if port in ports:
         return
     if port in (*element.inputs, *element.outputs):
@@ -307,17 +281,7 @@ def natural_of(element: Element, *, out: bool) -> str:
 
 
 def natural_port(element: Element, owner: str, *, out: bool) -> str:
-    """Return the natural port of a node.
-
-    >>> from optipath.elements.splitters import BeamSplitter
-    >>> natural_port(BeamSplitter(), "bs", out=False)
-    'in'
-    >>> try:
-    ...     natural_port(BeamSplitter(), "bs", out=True)
-    ... except PathError as error:
-    ...     print(error)
-    'bs' has no one natural way out; connect one of its out-ports: 'bs.reflected', 'bs.transmitted'
-    """
+    """Return the natural port of a node."""
     result = natural_of(element, out=out)
     if result:
         return result
@@ -363,10 +327,8 @@ def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> N
 def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
     """Add a node, as `PathGraph.add` does."""
     if not isinstance(name, str) or not name or "." in name:
-        raise PathError(
-            f"node name {shown(name)} must be a text without a dot, as in "
-            f"path.add('filter', Polarizer())"
-        )
+        example = "path.add('filter', Polarizer())"
+        raise PathError(f"node name {shown(name)} must be a text without a dot, as in {example}")
     if name in graph:
         raise PathError(f"node '{name}' is there already; choose another name")
     check_element(name, element)
@@ -374,10 +336,8 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
     if not isinstance(frames, Mapping) or not all(
         isinstance(frame, Frame) for frame in frames.values()
     ):
-        raise PathError(
-            f"frames of '{name}' must be a Frame for each port, such as "
-            f"{{'in': Frame()}}, not {shown(frames)}"
-        )
+        wrong = f"such as {{'in': Frame()}}, not {shown(frames)}"
+        raise PathError(f"frames of '{name}' must be a Frame for each port, {wrong}")
     frames = dict(frames)
     for port in frames:
         check_port(element, name, port, (*element.inputs, *element.outputs))
@@ -415,19 +375,15 @@ def _link(graph: nx.MultiDiGraph, leaves: Any, enters: Any, *, taps: bool = True
         links = [link for link in links if not graph.edges[link]["tap"]]
     if len(links) != 1:
         every = sorted(map(link_text, links or graph.edges(keys=True)))
-        raise PathError(
-            f"'{node}.{port}' {'feeds' if out else 'is fed by'} {_listed(links)}; name both ends "
-            f"of one{there_are(every)}"
-        )
+        feeds = f"'{node}.{port}' {'feeds' if out else 'is fed by'} {_listed(links)}"
+        raise PathError(f"{feeds}; name both ends of one{there_are(every)}")
     return links[0]
 
 
 def check_element(name: Any, element: Any) -> None:
     """Raise unless what is given for a node is an element."""
     if not isinstance(element, Element):
-        raise PathError(
-            f"node '{name}' must be an element such as Polarizer(), not {shown(element)}"
-        )
+        raise PathError(f"node '{name}' must be an element, as Polarizer(), not {shown(element)}")
 
 
 def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]) -> Link:
@@ -447,10 +403,8 @@ def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before:
     check_element(name, element)
     enters, passes = (natural_port(element, name, out=out) for out in (False, True))
     if behind is before is None:
-        raise PathError(
-            f"path.insert('{name}', ...) names no link; give behind='node.port', where light "
-            f"leaves, or before='node.port', where it arrives"
-        )
+        cure = "give behind='node.port', where light leaves, or before='node.port'"
+        raise PathError(f"path.insert('{name}', ...) names no link; {cure}, where it arrives")
     link = _link(graph, behind, before, taps=False)
     start, end, (leaves, arrives) = link
     frame = frame_at(Wiring(graph), start, leaves) if element.straight else None
@@ -484,10 +438,8 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
     missing = (entered - {*element.inputs}) | (left - {*element.outputs}) | placed
     if missing:
         ports = ", ".join(f"'{name}.{port}'" for port in sorted(missing))
-        raise PathError(
-            f"the new element of '{name}' has no {ports}, which links or frames use; take "
-            f"'{name}' out and add it anew"
-        )
+        lacks = f"the new element of '{name}' has no {ports}, which links or frames use"
+        raise PathError(f"{lacks}; take '{name}' out and add it anew")
     old, turn = graph.nodes[name]["element"], _own_turn(element)
     before = {link: graph.edges[link]["azimuth"] for link in graph.in_edges(name, keys=True)}
     twice = {
@@ -497,11 +449,9 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
     }
     for link, azimuth in twice.items():
         if not are_alike(azimuth, turn):
-            raise PathError(
-                f"link '{link_text(link)}' turns '{name}' by {turn_text(azimuth)}, and the new "
-                f"element is turned by {turn_text(turn)}; leave the azimuth of the new element out "
-                f"to have it turned as the old one is"
-            )
+            turns = f"turns '{name}' by {turn_text(azimuth)}, and the new one by {turn_text(turn)}"
+            cure = "leave its azimuth out to have it turned as the old one is"
+            raise PathError(f"link '{link_text(link)}' {turns}; {cure}")
         graph.edges[link]["azimuth"] = None
     if not twice and old.straight and element.straight:
         # World frames say how it stands; else, what is behind it stays as it was turned.
@@ -512,11 +462,9 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
     elif not twice and is_zero(turn):
         by_itself = [link[2][1] for link, azimuth in before.items() if azimuth is None]
         if any(not is_zero(azimuth_at(old, port)) for port in by_itself):
-            raise PathError(
-                f"'{name}' is turned by its azimuth {turn_text(_own_turn(old))}, and the new "
-                f"element is not; give it that azimuth, or take the link out and connect it anew "
-                f"with azimuth=0.0"
-            )
+            turned = f"'{name}' is turned by its azimuth {turn_text(_own_turn(old))}"
+            cure = "give it that azimuth, or connect its link anew with azimuth=0.0"
+            raise PathError(f"{turned}, and the new element is not; {cure}")
     graph.nodes[name]["element"] = element
 
 
@@ -531,14 +479,11 @@ def _close(graph: nx.MultiDiGraph, name: str, before: list[Link], behind: list[L
     several = more or others or start == name
     if several or not through:
         why = "several links meet there" if several else "light does not go straight through it"
-        raise PathError(
-            f"'{name}' cannot be taken out, since {why}; disconnect "
-            f"{_listed([*before, *behind])} first"
-        )
+        cure = f"disconnect {_listed([*before, *behind])} first"
+        raise PathError(f"'{name}' cannot be taken out, since {why}; {cure}")
     if graph.has_edge(start, end, key=(leaves, arrives)):
-        raise PathError(
-            f"link '{start}.{leaves} -> {end}.{arrives}' is there already; disconnect it first"
-        )
+        link = link_text((start, end, (leaves, arrives)))
+        raise PathError(f"link '{link}' is there already; disconnect it first")
     turn_more(graph, behind[0], azimuth_of(Wiring(graph), before[0]))
     about = graph.edges[behind[0]]
     tap = graph.edges[before[0]]["tap"] or about["tap"]

@@ -24,17 +24,18 @@ _ROUNDING = 1e-12
 """The share of the power that comes in below which a difference is rounding."""
 
 
-class PowerOnLink(NamedTuple):
-    """The power on a link, or at an out-port where light leaves the path. Shape: power (...)."""
+class LightOnLink(NamedTuple):
+    """The light on a link, or of an out-port that nothing takes it of; and its power (...)."""
 
     name: str
     start: str
     leaves: str
     end: str
     enters: str
-    power: npt.NDArray[np.float64]
-    tap: bool
-    in_loop: bool
+    light: Light
+    tap: bool = False
+    in_loop: bool = False
+    power: Any = None
 
 
 class EnergyAlong(NamedTuple):
@@ -50,7 +51,7 @@ class EnergyAlong(NamedTuple):
     {'eye': 0.125}
     """
 
-    links: tuple[PowerOnLink, ...]
+    links: tuple[LightOnLink, ...]
     given: Mapping[str, npt.NDArray[np.float64]]
     taken: Mapping[str, npt.NDArray[np.float64]]
     left: Mapping[str, npt.NDArray[np.float64]]
@@ -64,27 +65,15 @@ class EnergyAlong(NamedTuple):
             for which in ("given", "taken", "left", "ended")
         }
         links = [link._asdict() | {"power": plain(link.power)} for link in self.links]
+        links = [{key: value for key, value in link.items() if key != "light"} for link in links]
         return {"links": links, **powers, "notes": [*self.notes]}
 
 
 def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
-    """Return where the power of the light of a path comes from and goes.
-
-    >>> import optipath as op
-    >>> found = energy_along(op.load_preset("two-panes"))
-    >>> {name: float(power.round(3)) for name, power in found.left.items()}
-    {'pane1.transmitted': 0.926, 'pane2.transmitted': 0.074}
-    """
+    """Return where the power of the light of a path comes from and goes."""
     wiring = Wiring(path.graph, keep="all")
     lit = [*lights_along(path, **parameters)]
-    intensities = [np.asarray(each.light.intensity, float) for each in lit]
-    # No more than the noise of what the light was is dark.
-    powers = np.broadcast_arrays(
-        *[
-            np.where(np.abs(power) < each.light.noise, 0.0, power)
-            for each, power in zip(lit, intensities, strict=True)
-        ]
-    )
+    powers = np.broadcast_arrays(*[_power(each.light) for each in lit])
     spent = reached(wiring.untapped, wiring.starts)
     round_and_round = set().union(*cycles(wiring.untapped))
     links = []
@@ -92,7 +81,7 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
         tap = each.tap or (each.start, each.leaves) not in spent
         ends = {(each.start, each.leaves), (each.end, each.enters)}
         in_loop = not each.tap and ends <= round_and_round
-        links.append(PowerOnLink(*each[:5], power, tap, in_loop))
+        links.append(each._replace(tap=tap, in_loop=in_loop, power=power))
     flows = [link for link in links if not link.tap]
     inner = {node for node, e in wiring.elements.items() if e.inputs and e.outputs}
     begin = {node for node, e in wiring.elements.items() if not e.inputs}
@@ -104,6 +93,12 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     return EnergyAlong((*links,), given, taken, left, ended, (*_notes(links, taken),))
 
 
+def _power(light: Light) -> npt.NDArray[np.float64]:
+    """Return the intensity of light; no more than the noise of what it was is dark."""
+    power = np.asarray(light.intensity, float)
+    return np.where(np.abs(power) < light.noise, 0.0, power)
+
+
 def _sums(powers: Iterable[tuple[str, Any]]) -> dict[str, Any]:
     results: dict[str, Any] = {}
     for name, power in powers:
@@ -111,7 +106,7 @@ def _sums(powers: Iterable[tuple[str, Any]]) -> dict[str, Any]:
     return results
 
 
-def _taken(node: str, flows: list[PowerOnLink]) -> npt.NDArray[np.float64]:
+def _taken(node: str, flows: list[LightOnLink]) -> npt.NDArray[np.float64]:
     """Return what comes in and does not go out; 0 where that is rounding."""
     arrives = sum(link.power for link in flows if link.end == node)
     goes = sum(link.power for link in flows if link.start == node)
@@ -119,7 +114,7 @@ def _taken(node: str, flows: list[PowerOnLink]) -> npt.NDArray[np.float64]:
     return np.where(np.abs(rest) <= _ROUNDING * np.maximum(arrives, goes), 0.0, rest)
 
 
-def _notes(links: Iterable[PowerOnLink], taken: Mapping[str, Any]) -> Iterable[str]:
+def _notes(links: Iterable[LightOnLink], taken: Mapping[str, Any]) -> Iterable[str]:
     if any(link.in_loop for link in links):
         yield "light goes round: a link in a loop has the power of all rounds together"
     for name, power in taken.items():
@@ -129,18 +124,6 @@ def _notes(links: Iterable[PowerOnLink], taken: Mapping[str, Any]) -> Iterable[s
 
 KEEPING = Composer(keep="all")
 """What composes a path so that the light on every link is kept."""
-
-
-class LightOnLink(NamedTuple):
-    """The light on a link, or of an out-port that nothing takes the light of."""
-
-    name: str
-    start: str
-    leaves: str
-    end: str
-    enters: str
-    light: Light
-    tap: bool = False
 
 
 def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:

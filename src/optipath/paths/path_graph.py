@@ -126,10 +126,7 @@ class PathGraph(Chainable):
     def element(self, name: str) -> Element:
         """Return the element of a node.
 
-        Raises
-        ------
-        PathError
-            If there is no such node.
+        Raises a `PathError` if there is no such node.
         """
         return editing.element_at(self._graph, name)
 
@@ -163,22 +160,19 @@ class PathGraph(Chainable):
         name : str
             Not empty, without a dot, and new to the path.
         element : Element
-            The same element may stand in several places.
+            It may stand in several places.
         frames : mapping of str to Frame, optional
-            The world frame of each port, for an element that stands in space rather
-            than relative to the one before it. One frame will do for an element that
-            light goes straight through.
+            The world frame of each port, for an element that stands in space rather than relative
+            to the one before it; one will do where light goes straight through.
 
         Returns
         -------
         Node
-            For ``>>``.
 
         Raises
         ------
         PathError
-            If the name is taken or not allowed, the element is no Element, or a port
-            does not exist.
+            If the name is taken or not allowed, or a port does not exist.
         """
         editing.add(self._graph, name, element, frames)
         self._changed()
@@ -192,8 +186,8 @@ class PathGraph(Chainable):
         leaves, enters : str
             The ports, as ``"node.port"``, or ``"node"`` for its natural one, as ``>>`` has it.
         azimuth : float, array_like or Parameter, optional
-            The turn of the in-port's frame against the out-port's about the direction
-            of travel, in radians; by default the azimuth of the element.
+            The turn of the in-port's frame against the out-port's about the direction of travel,
+            in radians; by default the azimuth of the element.
         tap : bool, optional
             Whether the link reads all the light of the out-port and takes nothing of it. An
             out-port feeds one link, and any number of taps, each of which leads to ends of
@@ -202,8 +196,7 @@ class PathGraph(Chainable):
         Raises
         ------
         PathError
-            If a node or port does not exist, runs the other way, or the link is there
-            already.
+            If a port does not exist or runs the other way, or the link is there already.
         """
         editing.connect(self._graph, leaves, enters, azimuth, tap)
         self._changed()
@@ -246,13 +239,11 @@ class PathGraph(Chainable):
         Returns
         -------
         Node
-            For ``>>``.
 
         Raises
         ------
         PathError
-            If the port has no one link, the element has no natural way through, or frames
-            would not fit; the path is as it was then.
+            If there is no one link or natural way, or frames would not fit; the path stays then.
 
         Examples
         --------
@@ -300,7 +291,6 @@ class PathGraph(Chainable):
         Returns
         -------
         Node
-            For ``>>``.
 
         Raises
         ------
@@ -368,10 +358,7 @@ class PathGraph(Chainable):
     def check(self) -> None:
         """Raise with every fault of the path, if it has any.
 
-        Raises
-        ------
-        PathError
-            A sentence for each fault.
+        Raises a `PathError` with a sentence for each fault.
         """
         checked(self._values)
 
@@ -381,7 +368,7 @@ class PathGraph(Chainable):
         Parameters
         ----------
         *unnamed
-            None: values are given by name.
+            None.
         **values : float, str, array_like, Material or curve
             In radians and metres, or texts with units. A `Material` for the n of an index gives
             its k as well. What depends on the wavelength, as `op.tabulated(...)` and a `Spectrum`
@@ -409,10 +396,7 @@ class PathGraph(Chainable):
 
         They stay open: whoever traces the path may give others. None takes a default away.
 
-        Raises
-        ------
-        ParameterError
-            With every unknown parameter and every value that is not allowed.
+        Raises a `ParameterError` as `bind` does.
 
         Examples
         --------
@@ -424,17 +408,7 @@ class PathGraph(Chainable):
         return self._having(with_arguments(self._values, values, for_good=False))
 
     def reading(self, reads: str) -> Self:
-        """Return a copy of the path whose detectors and dumps all read this, and no more.
-
-        Parameters
-        ----------
-        reads : {"stokes", "linear", "intensity"}
-            As `Detector` takes it.
-
-        Raises
-        ------
-        PathError
-            If there is no such reading.
+        """Return a copy of the path whose detectors and dumps read this, as `Detector` takes it.
 
         Examples
         --------
@@ -456,9 +430,9 @@ class PathGraph(Chainable):
         Each element is met from the other side, in mirrored frames (x, -y, -z); sources are
         detectors there, and detectors sources. What each link turns stays the same, and links say
         it, and not elements. Parameters, defaults and cases stay, but for what is published;
-        values of the sources go with them, and what is chosen stays chosen where a turn stands
-        beside a place. ``path.reversed().mueller()`` is ``path.mueller().reversed()``, unless
-        there is a magnetic field (Sekera, J. Opt. Soc. Am. 56, 1732 (1966)).
+        values of the sources go with them, and what is chosen stays chosen.
+        ``path.reversed().mueller()`` is ``path.mueller().reversed()``, unless there is a magnetic
+        field (Sekera, J. Opt. Soc. Am. 56, 1732 (1966)).
 
         Parameters
         ----------
@@ -486,20 +460,16 @@ class PathGraph(Chainable):
         """
         path = self._with(reversed_graph(self._graph, source))
         path.cases = {}
-        known = {*path.parameters, *path.choices}
         for name, case in self.cases.items():
-            left = {n: value for n, value in case.values.items() if n in known}
-            if not (self.choices.keys() - known).intersection(case.values):
+            left = {n: value for n, value in case.values.items() if n in path.parameters}
+            if self.choices.keys().isdisjoint(case.values):
                 path.cases[name] = replace(case, values=left, published={})
         return path
 
     def to_toml(self) -> str:
         """Return the path as the text of a preset file; loading it gives the path back.
 
-        Raises
-        ------
-        PathError
-            If an element has no kind, or a value has no form in TOML.
+        Raises a `PathError` if an element has no kind, or a value has no form in TOML.
         """
         from optipath.paths.files.writer import to_toml  # noqa: PLC0415 - not for every import
 
@@ -517,7 +487,7 @@ class PathGraph(Chainable):
         Parameters
         ----------
         *unnamed
-            None: values are given by name.
+            None.
         keep : {"ends", "all"}, optional
             With ``"all"``, the light at every end, on every link, such as
             ``"lamp.out -> eye.in"``, and at every outlet, such as ``"glass.transmitted"``, by
@@ -530,13 +500,11 @@ class PathGraph(Chainable):
         Returns
         -------
         Light or dict of str to Light
-            The light at the detector; with ``"all"``, each light by name.
 
         Raises
         ------
         ParameterError
-            With every unknown, missing or unsuitable parameter, or if there are several
-            detectors.
+            With every unknown, missing or unsuitable parameter, or if there are several detectors.
         """
         plan = self.compose()
         check_named("trace", unnamed, plan.inputs.open)
@@ -544,7 +512,9 @@ class PathGraph(Chainable):
         if not ends and "keep" not in plan.inputs.open:
             if path := self._with_curves(parameters):
                 return path.trace(keep="all", **parameters)
-            return self._keeping(keep).run_all(**parameters)
+            if faults := unknown("keep", keep, KEEPABLE):
+                raise ParameterError(*faults)
+            return self.plan_by(Composer(keep=keep)).run_all(**parameters)
         if not ends:
             parameters["keep"] = keep
         try:
@@ -561,10 +531,8 @@ class PathGraph(Chainable):
 
         Parameters
         ----------
-        *unnamed
-            None: values are given by name.
-        **parameters : float or array_like
-            As in `trace`.
+        *unnamed, **parameters
+            By name, as in `trace`.
 
         Returns
         -------
@@ -593,10 +561,8 @@ class PathGraph(Chainable):
         ----------
         limit, bounces : int, optional
             How many ways at most, and how often light may be reflected on each.
-        *unnamed
-            None: values are given by name.
-        **parameters : float or array_like
-            As in `trace`.
+        *unnamed, **parameters
+            By name, as in `trace`.
 
         Returns
         -------
@@ -618,10 +584,8 @@ class PathGraph(Chainable):
         ----------
         source, detector : str, optional
             Their names; needed only where there are several.
-        *unnamed
-            None: values are given by name.
-        **parameters : float or array_like
-            As in `trace`.
+        *unnamed, **parameters
+            By name, as in `trace`.
 
         Returns
         -------
@@ -639,10 +603,7 @@ class PathGraph(Chainable):
     def plan_by(self, composer: Composer) -> Plan:
         """Return the plan that a composer makes of the path, composed once and kept.
 
-        Raises
-        ------
-        ComposerError
-            If it is none.
+        Raises a `ComposerError` if it is none.
         """
         if not isinstance(composer, Composer):
             argument, example = shown(composer), "op.Composer(engine='numpy')"
@@ -669,7 +630,7 @@ class PathGraph(Chainable):
         Parameters
         ----------
         *unnamed
-            None: values are given by name.
+            None.
         zip : sequence of str, or several, optional
             Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
             or a mapping of its name to them.
@@ -736,7 +697,7 @@ class PathGraph(Chainable):
         Parameters
         ----------
         *unnamed
-            None: values are given by name.
+            None.
         method : {"auto", "gradients", "differences", "monte-carlo"}, optional
             Slopes by JAX where it is installed, traces the path and does not take long, else by
             differences; by JAX; by differences; or samples of normal distributions, which are cut
@@ -836,12 +797,6 @@ class PathGraph(Chainable):
         path._graph = graph  # noqa: SLF001 - its own
         return path
 
-    def _keeping(self, keep: str) -> Plan:
-        """Return the plan that keeps so much light."""
-        if faults := unknown("keep", keep, KEEPABLE):
-            raise ParameterError(*faults)
-        return self.plan_by(Composer(keep=keep))
-
     def _with_curves(self, parameters: dict[str, Any]) -> PathGraph | None:
         """Return the path bound to what depends on the wavelength, which is taken out; or none."""
         curves = {n: parameters.pop(n) for n in [*parameters] if is_curve(parameters[n])}
@@ -886,8 +841,6 @@ def path_of(first: Any) -> PathGraph:
     elif isinstance(first, Element):
         path.add(editing.name_by_kind(first), first)
     else:
-        raise PathError(
-            f"{first} stands in a path already; add there what light passes before, and write "
-            f"path.add(name, element) >> path['{first.name}']"
-        )
+        cure = f"write path.add(name, element) >> path['{first.name}']"
+        raise PathError(f"{first} stands in a path already; add there what is before, and {cure}")
     return path

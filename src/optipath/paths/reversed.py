@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import networkx as nx
@@ -19,15 +18,13 @@ from optipath.elements.element import Element
 from optipath.elements.ends import Detector, Dump, Source
 from optipath.errors import OptipathError, PathError, did_you_mean, listed, shown, there_are
 from optipath.kernels.kernel import called
-from optipath.paths.editing import find_port
 from optipath.values.arrays import changed, same
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     from optipath.composer.wiring import Link, Port
     from optipath.light.frame import Frame
-    from optipath.paths.binding import PlaceChoice
 
 
 _SAME = 1e-9
@@ -44,8 +41,7 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
     turning.reverse_elements(sources)
     if faults := [*faults, *turning.faults, *turning.link_faults()]:
         raise PathError(*faults)
-    choices = reversed_choices(turning.wiring, turning.port)
-    result = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
+    result = nx.MultiDiGraph(**{**graph.graph, "choices": {}})
     for name in [*graph][::-1]:
         result.add_node(name, element=turning.elements[name], frames=turning.frames(name))
     for link in [*graph.edges(keys=True)][::-1]:
@@ -119,16 +115,12 @@ class _Turning:
             # What adds up inside of an element has been told.
             if len(links) > 1 and not (self.before[name].merges and self.before[name].outputs):
                 feeders = listed([f"'{start}.{leaves}'" for start, _, (leaves, _) in links])
-                yield (
-                    f"light of {feeders} adds up at '{name}.{port}', which has no way back; give "
-                    f"each a detector of its own"
-                )
+                cure = "which has no way back; give each a detector of its own"
+                yield f"light of {feeders} adds up at '{name}.{port}', {cure}"
         used = {end for link in self.wiring.graph.edges(keys=True) for end in _ends(link)}
         for name in sorted({name for name, port in used if not self._has_back(name, port)}):
-            yield (
-                f"'{name}': element class {_named(self.before[name])} does not say by which port "
-                f"light goes back; give it a class method port_back(port)"
-            )
+            cure = "by which port light goes back; give it a class method port_back(port)"
+            yield f"'{name}': element class {_named(self.before[name])} does not say {cure}"
 
     def _has_back(self, name: str, port: str) -> bool:
         """Tell whether light may go back by a port of a node."""
@@ -197,53 +189,8 @@ def _reversed(element: Element) -> Element:
     return back
 
 
-def reversed_choices(
-    wiring: Wiring, port_back: Callable[[str, str], str]
-) -> dict[str, PlaceChoice]:
-    """Return the choices of a path that stay the same choices on the way back.
-
-    They do if nothing turns between the ports beside a place: a node has the frame of its arrival.
-    """
-    choices: dict[str, PlaceChoice] = wiring.graph.graph["choices"]
-    movable = {choice.node for choice in choices.values()}
-    results = {}
-    for name, choice in choices.items():
-        ports = [_next_port(wiring, choice.node, port) for port in choice.behind.values()]
-        behind = {
-            word: f"{port[0]}.{port_back(*port)}"
-            for word, port in zip(choice.behind, ports, strict=True)
-            if port is not None and port[0] not in movable
-        }
-        if len(behind) == len(ports):
-            results[name] = replace(choice, behind=behind)
-    return results
-
-
-def _next_port(wiring: Wiring, node: str, behind: str) -> Port | None:
-    """Return the port that comes behind a place of a node; None where something is turned."""
-    try:
-        port = find_port(wiring.graph, behind, out=True)
-    except PathError:
-        return None
-    if frame_at(wiring, *port) is not None:
-        return None
-    while len(links := wiring.links_from.get(port, [])) == 1:
-        (link,) = links
-        if not is_zero(azimuth_of(wiring, link)):
-            return None
-        _, end, (_, enters) = link
-        if end != node:
-            return end, enters
-        port = node, wiring.elements[node].natural
-    return None
-
-
 def reversed_end(element: Element, source: Element | None = None) -> Element:
-    """Return what stands on the way back where light began or ended.
-
-    >>> reversed_end(Source(100.0)), reversed_end(Dump()).intensity
-    (Detector(reads='stokes', response=None), 0.0)
-    """
+    """Return what stands on the way back where light began or ended."""
     if not element.inputs:
         return Dump() if vanishes(getattr(element, "intensity", 1.0)) else Detector()
     return source or Source(1.0 if element.detects else 0.0)

@@ -93,19 +93,15 @@ def _seen(path: PathGraph, parameter: Parameter, uses: list[Use]) -> Iterable[fl
         resolved = parameter.resolve(value)
         numbers = np.atleast_1d(resolved.value)[np.atleast_1d(resolved.present)]
         if numbers.dtype.kind == "c":
-            raise ParameterError(
-                f"parameter '{name}' has the complex value {numbers[0]:g}, and a range is one of "
-                f"real numbers; give the values, or n and k by parameters of their own"
-            )
+            cure = "give the values, or n and k by parameters of their own"
+            raise ParameterError(f"parameter '{name}' has the complex value {numbers[0]:g}; {cure}")
         yield from numbers[np.isfinite(numbers)].tolist()
 
 
 def _of_light(seen: list[float], limits: tuple[float, float]) -> tuple[float, float]:
     low, high = max(VISIBLE[0], limits[0]), min(VISIBLE[1], limits[1])
-    if low < high and all(low <= each <= high for each in seen):
-        return low, high
-    if low < high and any(low <= each <= high for each in seen):
-        return min(low, *seen), max(high, *seen)
+    if low < high and (not seen or any(low <= each <= high for each in seen)):
+        return min([low, *seen]), max([high, *seen])
     return (min(seen) / 1.5, max(seen) * 1.5) if seen else limits
 
 
@@ -147,11 +143,7 @@ def _in_base_unit(number: float, parameter: Parameter) -> float:
 
 
 def _rounded_up(number: float) -> float:
-    """Return the next round number, or the largest float.
-
-    >>> _rounded_up(4.24), _rounded_up(0.0), _rounded_up(200.0)
-    (5.0, 0.0, 200.0)
-    """
+    """Return the next round number, or the largest float."""
     if not number:
         return 0.0
     power = 10.0 ** math.floor(math.log10(min(number, _MOST)))

@@ -135,9 +135,7 @@ def path_from_vertices(
         path = _composed(points, chains, intensity, start, bad)
         if normals is not None:
             if not isinstance(points, np.ndarray):
-                raise ValueFault(
-                    "normals are checked against points that are known; leave them out"
-                )
+                raise ValueFault("normals need points that are known; leave them out")
             checked = normals_checked(points, normals, chains, start, bad)
             if checked is not chains:
                 path = _composed(points, checked, intensity, start, bad)
@@ -183,7 +181,6 @@ def _points(vertices: Any, chains: Histories) -> Any:
         points = VERTICES.kept(as_argument("the array of vertices", vertices))
     shape = np.shape(points)
     if shape[-2:] != (count + 2, 3):
-        raise ValueFault(
-            f"vertices must have shape (..., m + 2, 3), {media}, not {shape or shown(vertices)}"
-        )
+        given = shape or shown(vertices)
+        raise ValueFault(f"vertices must have shape (..., m + 2, 3), {media}, not {given}")
     return points

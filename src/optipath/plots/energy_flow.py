@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from optipath.paths.energy import EnergyAlong, PowerOnLink
+    from optipath.paths.energy import EnergyAlong, LightOnLink
     from optipath.values.precision import Numbers
 
 
@@ -248,11 +248,11 @@ def energy_rows(result: EnergyAlong) -> tuple[list[EnergyRow], list[EnergyLink]]
     return rows, links
 
 
-def _end(link: PowerOnLink) -> str:
+def _end(link: LightOnLink) -> str:
     return link.end or link.name
 
 
-def _in_order(links: Sequence[PowerOnLink]) -> list[str]:
+def _in_order(links: Sequence[LightOnLink]) -> list[str]:
     """Return elements in the order in which they send light, ends behind the last that they get."""
     starts = [*dict.fromkeys(link.start for link in links)]
     last = {_end(link): link for link in links}
@@ -265,7 +265,7 @@ def _in_order(links: Sequence[PowerOnLink]) -> list[str]:
 
 
 def _lanes(
-    links: Sequence[PowerOnLink], names: list[str], back: list[bool]
+    links: Sequence[LightOnLink], names: list[str], back: list[bool]
 ) -> tuple[dict[str, int], dict[int, int]]:
     """Return the lane of each row and of each link."""
     ways: dict[int, int] = {}
@@ -285,7 +285,7 @@ def _lanes(
     return lanes, ways
 
 
-def _importance(link: PowerOnLink, links: Sequence[PowerOnLink]) -> tuple[Any, ...]:
+def _importance(link: LightOnLink, links: Sequence[LightOnLink]) -> tuple[Any, ...]:
     """Return by what links are in order: what goes on, what ends, what leaves; the brightest."""
     goes_on = any(other.start == link.end for other in links)
     return link.tap, not goes_on, not link.end, -float(link.power)

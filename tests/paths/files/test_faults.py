@@ -266,7 +266,7 @@ PARAMETERS = [
     ('"theta"', "'theta' is no number; write \"$theta\" for the parameter"),
     ('"$thta"', "parameter '$thta' is not declared; did you mean '$theta'?"),
     *(
-        (text, 'write a multiple of one, with an offset, as { parameter = "NAME", scale = 0.5')
+        (text, 'write a multiple as { parameter = "NAME", scale = 0.5')
         for text in ('"$theta/2"', '"90 deg - $theta"', '"sin($theta)"', '"$theta + $n"')
     ),
 ]

@@ -82,10 +82,8 @@ def load_preset(
     """
     path = read_preset(locate(preset))
     if unnamed:
-        raise ParameterError(
-            f"a case and values are given by name, as in load_preset({shown(preset)}, "
-            f"case={shown(unnamed[0])})"
-        )
+        example = f"load_preset({shown(preset)}, case={shown(unnamed[0])})"
+        raise ParameterError(f"a case and values are given by name, as in {example}")
     path = preset_of_case(path, preset, case)
     return path.bind(**values) if values else path
 

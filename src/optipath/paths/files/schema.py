@@ -50,11 +50,7 @@ _WORDS = {
 
 
 def type_faults(where: str, table: Mapping[str, Any], known: Collection[str]) -> list[Fault]:
-    """Return a fault for each key that is unknown, or has another type than a mapping says.
-
-    >>> type_faults("links[0]", {"form": "a.out", "to": 3}, {"from": str, "to": str})[0]
-    "links[0]: key 'form' is unknown; did you mean 'from'?"
-    """
+    """Return a fault for each key that is unknown, or has another type than a mapping says."""
     schema = known if isinstance(known, Mapping) else dict.fromkeys(known, object)
     faults = [
         f"key '{key}' is unknown{did_you_mean(key, known)}" for key in table if key not in known
@@ -78,11 +74,7 @@ def checked_table(raw: Any, known: Collection[str], needed: Iterable[str] = ()) 
 
 
 def number_of(raw: Any, unit: str) -> float | complex:
-    """Return a number in base units, which is written with its unit where it has one.
-
-    >>> number_of("1 mm", "m"), number_of(1.5, "")
-    (0.001, 1.5)
-    """
+    """Return a number in base units, which is written with its unit where it has one."""
     if isinstance(raw, str):
         return parse_quantity(raw, dimension_of(unit))
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
@@ -93,10 +85,8 @@ def number_of(raw: Any, unit: str) -> float | complex:
     except OverflowError:
         raise UnitError(f"{shown(raw)} is too large a number") from None
     if unit and math.isfinite(number):
-        request = with_article(dimension_of(unit))
-        raise UnitError(
-            f"{shown(raw)} has no unit, but {request} is asked for; write '{raw} {unit}'"
-        )
+        request = f"{with_article(dimension_of(unit))} is asked for"
+        raise UnitError(f"{shown(raw)} has no unit, but {request}; write '{raw} {unit}'")
     return number
 
 
@@ -113,14 +103,7 @@ class Faults(list[str]):
     def attempt(
         self, where: str, action: Callable[P, T], *arguments: P.args, **keywords: P.kwargs
     ) -> T | None:
-        """Return what an action gives, or None after keeping its faults.
-
-        >>> from optipath.values.units import dimension_of
-        >>> faults = Faults()
-        >>> faults.attempt("parameters.delta", dimension_of, "degg")
-        >>> faults
-        ["parameters.delta: unit 'degg' is unknown; did you mean 'deg'?"]
-        """
+        """Return what an action gives, or None after keeping its faults."""
         try:
             return action(*arguments, **keywords)
         except OptipathError as error:
@@ -144,11 +127,7 @@ def each_entry(entries: Iterable[Any], action: Callable[[Any], T], where: str = 
 def each_key(
     table: Mapping[str, Any], action: Callable[[str, Any], T], where: str = ""
 ) -> dict[str, T]:
-    """Return what an action makes of each key of a table and its value, or raise with all faults.
-
-    >>> each_key({"n": "1.5", "k": 2}, lambda key, raw: number_of(raw, ""))
-    {'n': 1.5, 'k': 2.0}
-    """
+    """Return what an action makes of each key of a table and its value, or raise all faults."""
     faults = Faults()
     results = {
         key: faults.attempt(f"{where}.{key}", action, key, raw) for key, raw in table.items()
@@ -207,14 +186,11 @@ def file_of(argument: Any, what: str, folder: Path, see: str) -> Path:
     try:
         path = Path(argument)
     except TypeError:
-        raise PresetError(
-            f"a {what} is a name or the path of a file, not {shown(argument)}"
-        ) from None
+        wrong = f"not {shown(argument)}"
+        raise PresetError(f"a {what} is a name or the path of a file, {wrong}") from None
     if path.suffix.lower() != ".toml":
-        raise PresetError(
-            f"'{argument}' is neither the name of a {what} (a-z, 0-9 and -) nor the path of a "
-            f".toml file; see the names with {see}"
-        )
+        neither = f"neither the name of a {what} (a-z, 0-9 and -) nor the path of a .toml file"
+        raise PresetError(f"'{argument}' is {neither}; see the names with {see}")
     return path
 
 
@@ -233,9 +209,8 @@ def text_of(path: Path, what: str) -> str:
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise PresetError(
-            f"'{path}' is not UTF-8 at byte {error.start}; save it as UTF-8"
-        ) from None
+        where = f"at byte {error.start}"
+        raise PresetError(f"'{path}' is not UTF-8 {where}; save it as UTF-8") from None
 
 
 def presets_folder() -> Path:

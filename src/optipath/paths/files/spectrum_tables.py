@@ -51,11 +51,7 @@ _SCALE, _OFFSET = "scale", "offset"
 
 
 def spectrum_of(raw: Any) -> Spectrum:
-    """Return the spectrum of a table.
-
-    >>> spectrum_of({"line": "633 nm", "power": 2.0})
-    <Spectrum: the line at 633 nm>
-    """
+    """Return the spectrum of a table."""
     if isinstance(raw, str) and (sentence := spectrum_meant(raw)):
         raise PresetError(sentence)
     if not isinstance(raw, dict):
@@ -77,11 +73,7 @@ def spectrum_of(raw: Any) -> Spectrum:
 
 
 def spectrum_table(spectrum: Spectrum) -> dict[str, Any]:
-    """Return the table of a spectrum, of which the same one is read.
-
-    >>> spectrum_table(Spectrum.line("633 nm", power=2.0) * 3)
-    {'line': '633 nm', 'power': 6.0}
-    """
+    """Return the table of a spectrum, of which the same one is read."""
     return _table(spectrum.kind)
 
 
@@ -158,11 +150,7 @@ def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Doma
 
 
 def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
-    """Return wavelengths in metres.
-
-    >>> wavelengths_of([500, 520], "nm"), wavelengths_of(["0.5 um"])
-    ([5e-07, 5.2e-07], [5e-07])
-    """
+    """Return wavelengths in metres."""
 
     def wavelength(entry: Any) -> float:
         if isinstance(entry, str):
@@ -180,11 +168,7 @@ def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
 
 
 def samples_of(raw: Any, unit: str) -> list[float]:
-    """Return the samples of one quantity in base units.
-
-    >>> samples_of([1.5, 1.6], ""), samples_of(["1 mm"], "mm")
-    ([1.5, 1.6], [0.001])
-    """
+    """Return the samples of one quantity in base units."""
 
     def sample(entry: Any) -> float:
         number = number_of(entry, unit)

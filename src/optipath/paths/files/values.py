@@ -39,7 +39,7 @@ from optipath.materials.material import PARTS, K, Material
 from optipath.materials.quantities import AMPLITUDE, ANGLE, SpectralDomain
 from optipath.materials.spectrum import Spectrum
 from optipath.materials.tables import PageCurve, Tabulated
-from optipath.paths.files.schema import Faults, checked_table, each_entry, each_key, number_of
+from optipath.paths.files.schema import checked_table, each_entry, each_key, number_of
 from optipath.paths.files.spectrum_tables import (
     sampled_curve,
     spectrum_of,
@@ -100,12 +100,7 @@ _TEXT_KEYS = {_MATERIAL, _CRYSTAL, "name", "unit", *_TEXTS}
 
 
 def decode(raw: Any, domain: Domain, parameters: Parameters) -> Any:
-    """Return the value of an element's field, in base units.
-
-    >>> from optipath.materials.quantities import REAL
-    >>> decode([1, 2.5], REAL, {})
-    [1.0, 2.5]
-    """
+    """Return the value of an element's field, in base units."""
     if isinstance(domain, Choice):
         return domain.check("the value", raw)
     if entry_domain(domain) is not None:
@@ -190,26 +185,19 @@ def _referred(raw: str, parameters: Parameters) -> Parameter:
     if sign in ("", "-") and name.isidentifier():
         known = [f"${parameter}" for parameter in parameters]
         raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")
-    raise PresetError(
-        f"'{raw}' is no name of a parameter; write a multiple of one, with an offset, as "
-        f'{{ parameter = "NAME", scale = 0.5, offset = ... }}'
-    )
+    multiple = '{ parameter = "NAME", scale = 0.5, offset = ... }'
+    raise PresetError(f"'{raw}' is no name of a parameter; write a multiple as {multiple}")
 
 
 def _affine(raw: Any, domain: Domain, parameters: Parameters) -> Parameter:
     """Return a multiple of a parameter with an offset that is written as a table."""
     checked_table(raw, _AFFINE, ("parameter",))
-    faults, name = Faults(), raw["parameter"]
+    name, units = raw["parameter"], {"scale": "", "offset": domain.unit}
     if name not in parameters:
-        faults.append(f"parameter '{name}' is not declared{did_you_mean(name, parameters)}")
-    units = {"scale": "", "offset": domain.unit}
-    numbers: dict[str, Any] = {
-        key: faults.attempt(f".{key}", number_of, raw[key], unit)
-        for key, unit in units.items()
-        if key in raw
-    }
-    faults.refuse()
-    return replace(parameters[name], **numbers)
+        raise PresetError(f"parameter '{name}' is not declared{did_you_mean(name, parameters)}")
+    numbers = {key: raw[key] for key in units if key in raw}
+    each: Any = each_key(numbers, lambda key, number: number_of(number, units[key]))
+    return replace(parameters[name], **each)
 
 
 def _parts(raw: Any, domain: Domain, parameters: Parameters) -> dict[str, Any]:
@@ -275,10 +263,8 @@ def _curve(raw: Mapping[str, Any], domain: Domain, parameters: Parameters) -> An
     if others:
         raise PresetError(f"'{form}' and '{others[0]}' say one thing twice; leave one of them out")
     if domain.tail:
-        raise PresetError(
-            f"'{form}' gives one number, but several are asked for that belong together; give "
-            f"them for each wavelength, as a parameter"
-        )
+        cure = "give them for each wavelength, as a parameter"
+        raise PresetError(f"'{form}' gives one number, but several are asked for; {cure}")
     of_index = _is_of_index(domain)
     if form in (_SUM, _DIFFERENCE):
         if of_index:
@@ -364,10 +350,8 @@ def _number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
     request = "" if _is_of_index(domain) else _QUANTITIES.get(domain.dimension, "")
     result = getattr(crystal, request, None)
     if result is None:
-        raise PresetError(
-            f"{crystal.label} gives no {domain.name}; it stands for a birefringence, and quartz "
-            f"for a rotatory power"
-        )
+        known = "it gives a birefringence, and quartz a rotatory power"
+        raise PresetError(f"{crystal.label} gives no {domain.name}; {known}")
     return result
 
 
@@ -435,7 +419,7 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, CurveValue):
-        table = _row(value, unit) | _part(value.curve, value.place)
+        table = _table(value.curve, value.depends_on, unit) | _part(value.curve, value.place)
         return table | _multiple(value, unit)
     if isinstance(value, Parameter):
         if value.is_signed:
@@ -479,7 +463,7 @@ def _material(material: Material) -> dict[str, Any]:
     for value, others in ((n, ()), (n, "k"), (k, "n")):
         # Beside the name of a page, n or k may be given.
         if isinstance(value, CurveValue) and (isinstance(value.curve, PageCurve) or not others):
-            table = _row(value) | {part: apart[part] for part in others}
+            table = _table(value.curve, value.depends_on) | {part: apart[part] for part in others}
             with suppress(OptipathError):
                 if same(decode(table, INDEX, known), material):
                     return table
@@ -492,12 +476,8 @@ def _part(curve: Curve, place: int) -> dict[str, str]:
     return {} if alone else {"part": curve.parts[place]}
 
 
-def _row(value: CurveValue, unit: str = "") -> dict[str, Any]:
+def _table(curve: Curve, depends_on: tuple[Any, ...], unit: str = "") -> dict[str, Any]:
     """Return the table of the curve that a value follows from."""
-    return _table(value.curve, value.depends_on, unit)
-
-
-def _table(curve: Curve, depends_on: tuple[Any, ...], unit: str) -> dict[str, Any]:
     crystal = _crystal_of(curve)
     form = next((form for form, of in _FORMULAS.items() if type(curve) is of), "")
     if crystal:

@@ -108,10 +108,8 @@ def _parameter(parameter: Parameter, complex_parts: tuple[str, ...]) -> dict[str
 
 def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
     if not element.kind:
-        raise PathError(
-            f"class {type(element).__name__} has no kind; define it as "
-            f'class {type(element).__name__}(Element, kind="...")'
-        )
+        name = type(element).__name__
+        raise PathError(f'class {name} has no kind; define it as class {name}(Element, kind="...")')
     row: dict[str, Any] = {"kind": element.kind}
     for f in fields(element):  # type: ignore[arg-type]
         value = getattr(element, f.name)
@@ -153,12 +151,7 @@ def _case(
 
 
 def toml_lines(header: str, row: Mapping[str, Any]) -> str:
-    """Return a table of a file, with a line for each of its keys.
-
-    >>> print(toml_lines("[elements.eye]", {"kind": "detector"}), end="")
-    [elements.eye]
-    kind = "detector"
-    """
+    """Return a table of a file, with a line for each of its keys."""
     pairs = [f"{_key(key)} = {as_toml(value)}\n" for key, value in row.items()]
     return "".join([f"{header}\n" if header else "", *pairs])
 
@@ -168,11 +161,7 @@ def _key(key: str) -> str:
 
 
 def as_toml(value: Any) -> str:
-    """Write a text, a number, or a list or a table of such, on one line.
-
-    >>> as_toml({"light": "L.out", "tap": True})
-    '{ light = "L.out", tap = true }'
-    """
+    """Write a text, a number, or a list or a table of such, on one line."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
