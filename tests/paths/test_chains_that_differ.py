@@ -358,7 +358,7 @@ def chosen(second):
         (many(events=["RR", "RRR", "R"]), ["events has 3 letters for a chain of 2 vertices"]),
         (many(events=[1, 2, 3]), ["events is [1, 2, 3]; give R for each"]),
         (many(events=[["RR"] * 2] * 3), ["a text for each chain, in one row"]),
-        (many(events=[["R"] * 3] * 3), ["an array of shape (..., 2) of single letters"]),
+        (many(events=[["R"] * 3] * 3), ["single letters of shape (..., 2)"]),
         (many(events=[["", "R"]] * 3), ["letter 1 of chain 0 is missing"]),
         (many(events="RRR", lengths=[1, 2, 1]), ["has 3 letters for a chain of 2"]),
         (many(bad="maks"), ["bad 'maks' is unknown; did you mean 'mask'?"]),

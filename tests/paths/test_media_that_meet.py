@@ -343,7 +343,7 @@ def test_a_ring_may_turn_its_light_and_a_face_at_an_angle_sends_none_back():
     np.testing.assert_allclose(path.trace(turn=turn).stokes, expected, rtol=1e-12, atol=1e-15)
     front, back = op.Interface(1.5, "48.59 deg"), op.Interface(1.0, "20 deg", 1.5, parallel=False)
     faces(front, back).check()
-    told = "between 'front' and 'back', which says parallel=False: what comes back"
+    told = "between 'front' and 'back', which says parallel=False, though light comes back"
     assert told in fault_of(slab(front, back))
 
 

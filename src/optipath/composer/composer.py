@@ -294,10 +294,9 @@ class Composer:
     def _reduced(self, whole: Program) -> tuple[Reduction, Tolerance | None]:
         """Return what is run, and what may be taken in its place."""
         exact = reduced(whole, self.model, self.composing, self.dtype)
-        if self.tolerance is not None:
-            instead = tolerated(exact, self.model, self.tolerance)
-            if instead is not None:
-                return exact, instead
+        most = self.tolerance
+        if most is not None and (instead := tolerated(exact, self.model, most)):
+            return exact, instead
         unchanged = self.model == "auto" or exact.unreduced
         return exact if unchanged else by_name(exact, self.model), None
 

@@ -385,7 +385,7 @@ def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
             result.nodes[name]["element"] = taking.elements[name]
     messages = [fault for several in faults.values() for fault in several]
     messages = messages or [
-        f"'{name}' takes over (FOLLOWS) what the boundaries before it take over, too; give one it"
+        f"'{name}' takes over (FOLLOWS) what those before it take over; give it at one of them"
         for name in names
         if taking.elements[name].followed()
     ]

@@ -240,9 +240,5 @@ def _argument(raw: Any, parameter: Parameter, uses: list[Use]) -> Any:
 
 
 def _is_stokes(stokes: Any) -> bool:
-    return (
-        isinstance(stokes, list)
-        and len(stokes) == 4
-        and {*map(type, stokes)} <= {int, float}
-        and all(map((1e308).__gt__, map(abs, stokes)))
-    )
+    four = isinstance(stokes, list) and len(stokes) == 4
+    return four and all(type(each) in (int, float) and abs(each) < 1e308 for each in stokes)

@@ -146,13 +146,10 @@ def joined(faults: Iterable[str]) -> list[Fault]:
     places: dict[Fault, list[str]] = {}
     for fault in map(Fault.of, dict.fromkeys(faults)):
         places.setdefault(fault.but(place=""), []).append(fault.place)
-    return [fault.under(listed(_few(where))) for fault, where in places.items()]
-
-
-def _few(places: list[str]) -> list[str]:
-    if len(places) <= _MOST:
-        return places
-    return [*places[: _MOST - 1], f"{len(places) - _MOST + 1} more places"]
+    for where in places.values():
+        if len(where) > _MOST:
+            where[_MOST - 1 :] = [f"{len(where) - _MOST + 1} more places"]
+    return [fault.under(listed(where)) for fault, where in places.items()]
 
 
 _LARGEST = 4 * 1024 * 1024
