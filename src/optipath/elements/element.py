@@ -286,6 +286,7 @@ class Element(Chainable):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the ways through; by default from ``in`` to ``out`` by `mueller_rows`."""
+        if self._kernel is None:
             raise PathError(
                 f"element class {type(self).__name__} does not say what it does to light; "
                 f"give it a static method mueller_rows(xp, ...) or a method couplings()"
