@@ -41,7 +41,7 @@ def refused(store, told):
 
 def record_with(store, **changed):
     """Have a job kept, and something else said of it in its store."""
-    keep_blocks(Powers(2), store)["blocks"].attrs.update(changed)
+    keep_blocks(Powers(2), store).group["blocks"].attrs.update(changed)
 
 
 @rows(
@@ -144,7 +144,7 @@ def test_a_block_of_another_job_is_none(store, tmp_path):
 
 def test_metadata_that_cannot_be_read_are_told_and_attributes_may_be_added(store):
     keep_blocks(Powers(2), store)
-    for name in ("power/.zarray", "blocks/.zattrs"):
+    for name in (".zmetadata", "blocks/.zattrs"):
         content = (store / name).read_bytes()
         (store / name).write_bytes(b"[")
         refused(store, r"metadata.* of the store '.*' are damaged; take another name, or del")
@@ -199,7 +199,7 @@ def test_a_store_goes_into_an_empty_folder_and_stays_where_a_block_is_done(tmp_p
 def test_a_store_may_be_at_a_url_and_a_place_that_cannot_be_is_told():
     place = "memory://stores/powers.zarr"
     for _ in range(2):
-        found = keep_blocks(Powers(3), place)
+        found = keep_blocks(Powers(3), place).arrays
         assert np.array_equal(found["power"][:], powers(3))
     with pytest.raises(JobError, match="another job: it has 'powers'"):
         keep_blocks(Powers(3, title="others"), place)

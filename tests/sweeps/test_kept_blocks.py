@@ -189,7 +189,7 @@ def test_the_active_client_is_taken_and_who_dies_loses_nothing(store, log, clien
     assert 20 <= len(computed(log)) <= 22
     client.wait_for_workers(2, timeout=120)
     monkeypatch.setattr(distributed, "default_client", lambda: client)
-    found = keep_blocks(WhoComputes(3), store.with_name("who.zarr"))
+    found = keep_blocks(WhoComputes(3), store.with_name("who.zarr")).arrays
     pids = {*found["power"][...].ravel().astype(int)}
     assert pids <= {*client.run(os.getpid).values()}
 

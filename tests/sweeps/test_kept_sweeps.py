@@ -15,7 +15,6 @@ import optipath as op
 from optipath.errors import JobError
 from optipath.sweeps import stored
 from optipath.sweeps.axes import grid_of
-from optipath.sweeps.chunks import swept_in_chunks
 from optipath.sweeps.stored import SweepJob
 from tables import slow
 
@@ -212,7 +211,7 @@ def job_of(chunks=4, preset="npgr026", **given):
     plan = path.compose()
     axes = {"delta": np.linspace(0.0, 1.0, 10), "phi": np.linspace(0.0, 1.0, 6)}
     grid = grid_of(plan.inputs, {**(axes if preset == "npgr026" else {}), **given})
-    return SweepJob.of(swept_in_chunks(path, plan, grid, chunks))
+    return SweepJob.of(path, plan, grid, chunks)
 
 
 def test_blocks_cover_the_grid_have_every_variable_and_are_the_same_when_pickled():

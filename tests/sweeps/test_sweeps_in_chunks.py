@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.sweeps import chunks as chunked_light
-from optipath.sweeps import chunks as in_chunks
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.chunks import BLOCK, chunk_sizes, run_block
 from optipath.sweeps.plan_recipe import OwnClass, PlanRecipe
@@ -139,11 +138,9 @@ def test_the_memory_of_light_is_that_of_its_numbers_and_a_chunk_does_not_keep_it
     while whole.base is not None:
         whole = whole.base
     assert whole.nbytes == found.nbytes
-    plan = MALUS.compose()
-    grid = grid_of(plan.inputs, {"angle": np.linspace(0.0, 1.0, 1000)})
-    chunked = in_chunks.swept_in_chunks(MALUS, plan, grid, "auto")
-    block = run_block(chunked.recipe, chunked.grid)
-    assert sys.getsizeof(block) >= 4 * 8 * chunked.grid.points
+    grid = grid_of(MALUS.compose().inputs, {"angle": np.linspace(0.0, 1.0, 1000)})
+    block = run_block(PlanRecipe.of(MALUS), grid)
+    assert sys.getsizeof(block) >= 4 * 8 * grid.points
     assert sys.getsizeof(pickle.loads(pickle.dumps(block))) == sys.getsizeof(block)
 
 

@@ -70,14 +70,15 @@ def grid_of(
     several = {name: (value, "") for name, value in arguments.items()} | besides
     values = _read(inputs, several, faults)
     dimensions = {name: several[name][1] or name for name in values}
-    own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
+    several_values = {n: v.given for n, v in values.items() if v.given.ndim}
+    own = {name: len(given) for name, given in several_values.items() if dimensions[name] == name}
     dimensions |= zipped_dimensions(zip, own, {*inputs.open, *values}, faults)
     along = {n: v.dims[0] for n, v in arguments.items() if _is_labelled(v) and v.ndim == 1}
     faults += shared_dimensions(along, dimensions)
     faults += [
         f"'{name}' is along the dimension '{dimension}', which is the name of a parameter with "
         f"another axis; rename the dimension, such as coords.rename_dims({dimension}='point')"
-        for dimension, name in {dimensions[n]: n for n, v in values.items() if v.given.ndim}.items()
+        for dimension, name in {dimensions[name]: name for name in several_values}.items()
         if dimension in inputs.open and dimensions.get(dimension) != dimension
     ]
     faults += unnamed_arrays(inputs, several)
@@ -187,10 +188,11 @@ def zipped_dimensions(
     >>> zipped_dimensions(("delta", "rho"), {"delta": 3, "rho": 3, "phi": 2}, [], [])
     {'delta': 'delta_rho', 'rho': 'delta_rho'}
     """
-    several = zipped or ()
-    if isinstance(several, (list, tuple)) and several and all(isinstance(n, str) for n in several):
-        several = [several]
-    groups = several.items() if isinstance(several, Mapping) else [("", each) for each in several]
+    if isinstance(zipped, Mapping):
+        groups = [*zipped.items()]
+    else:
+        is_one = not isinstance(zipped, (list, tuple)) or all(isinstance(n, str) for n in zipped)
+        groups = [("", each) for each in ([zipped] if is_one else zipped)] if zipped else []
     results: dict[str, str] = {}
     for given, names in groups:
         is_group = isinstance(names, (list, tuple)) and all(isinstance(n, str) for n in names)
@@ -198,16 +200,13 @@ def zipped_dimensions(
             faults.append(f"zip is {shown(zipped)}, and a group is two names or more; write {_AS}")
             return {}
         dimension = given or "_".join(names)
-        wrong = [
-            f"zip names '{name}', which has no axis of its own{did_you_mean(name, lengths)}"
-            for name in names
-            if name not in lengths
-        ]
-        wrong += [
-            f"zip names '{name}' twice; write it in one group, once"
-            for name in dict.fromkeys(names)
-            if name in results or names.count(name) > 1
-        ]
+        wrong = []
+        for name in dict.fromkeys(names):
+            if name not in lengths:
+                meant = did_you_mean(name, lengths)
+                wrong.append(f"zip names '{name}', which has no axis of its own{meant}")
+            if name in results or names.count(name) > 1:
+                wrong.append(f"zip names '{name}' twice; write it in one group, once")
         if dimension in parameters or dimension in results.values():
             wrong.append(
                 f"zip calls a dimension '{dimension}', which is the name of a parameter or of "
@@ -315,7 +314,7 @@ def _coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> Given:
     try:
         if isinstance(coords, (str, PathLike)):
             return _of_file(inputs, coords, faults)
-        if _has_coordinates(coords):
+        if _is_labelled(coords, "Dataset", "Coordinates"):
             return _of_dataset(inputs, coords, faults)
     except OptipathError as fault:
         faults += [each.under(fault.about) for each in fault.faults]
@@ -384,18 +383,12 @@ def _is_label(inputs: Inputs, coords: Any, name: Any) -> bool:
 _NO_UNIT = ("", NO_UNIT, "dimensionless")
 
 
-def _is_of_xarray(value: Any, *classes: str) -> bool:
-    """Tell whether a value is of one of some classes, without importing xarray."""
+def _is_labelled(value: Any, *others: str) -> bool:
+    """Tell whether a value is a DataArray, or of another class of xarray, which is not imported."""
     xarray = sys.modules.get("xarray")
-    return xarray is not None and isinstance(value, tuple([getattr(xarray, n) for n in classes]))
-
-
-def _is_labelled(value: Any) -> bool:
-    return _is_of_xarray(value, "DataArray")
-
-
-def _has_coordinates(value: Any) -> bool:
-    return _is_of_xarray(value, "DataArray", "Dataset", "Coordinates")
+    return xarray is not None and any(
+        isinstance(value, getattr(xarray, each)) for each in ("DataArray", *others)
+    )
 
 
 def _unit_of_array(parameter: Parameter, unit: Any) -> str:

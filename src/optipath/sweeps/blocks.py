@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator, Mapping
     from os import PathLike
 
-    import zarr
-
     from optipath.sweeps.store import BlockJob
 
 
@@ -44,7 +42,7 @@ def keep_blocks(
     store: str | PathLike[str],
     scheduler: Any = None,
     progress: Callable[[int, int], None] | None = None,
-) -> zarr.Group:
+) -> BlockStore:
     """Compute those blocks of a job that its store does not hold, and keep each when it is done.
 
     After an error the store stays, unless it is empty and no worker of a cluster may still write to
@@ -64,7 +62,7 @@ def keep_blocks(
     >>> job.places = lambda block: {"square": (slice(2 * block, 2 * block + 2),)}
     >>> job.task = lambda block: lambda: {"square": np.arange(2.0 * block, 2 * block + 2) ** 2}
     >>> with TemporaryDirectory() as folder:
-    ...     print(keep_blocks(job, f"{folder}/squares.zarr")["square"][:])
+    ...     print(keep_blocks(job, f"{folder}/squares.zarr").arrays["square"][:])
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
@@ -91,7 +89,7 @@ def keep_blocks(
             if not are_at_work:  # They might write into another job's store of the same name.
                 stored.discard_unused()
             raise
-    return stored.group
+    return stored
 
 
 def _handed_out(

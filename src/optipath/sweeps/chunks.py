@@ -14,7 +14,6 @@ from dask.delayed import delayed
 from optipath.errors import Cure, Fault, ParameterError, shown, unknown
 from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.datasets import detectors_of, regions, sweep_dataset
-from optipath.sweeps.grid import SweepGrid
 from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.values.precision import is_whole
 
@@ -27,27 +26,16 @@ if TYPE_CHECKING:
     from optipath.light.quantities import LightQuantity
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
-
-
-@dataclass(frozen=True)
-class ChunkedSweep:
-    """A sweep of which nothing is computed yet, and what it is made of."""
-
-    recipe: PlanRecipe
-    grid: SweepGrid
-    quantities: Mapping[str, LightQuantity]
-    dataset: xr.Dataset
+    from optipath.sweeps.grid import SweepGrid
 
 
 def swept_in_chunks(
     path: PathGraph, plan: Plan, grid: SweepGrid, chunks: Any, composer: Composer | None = None
-) -> ChunkedSweep:
+) -> xr.Dataset:
     """Return the light of a grid, to be computed block by block."""
     recipe = PlanRecipe.of(path, composer)
     sizes = chunk_sizes(chunks, grid.sizes, len(detectors_of(plan)))
-    result = sweep_dataset(path, plan, grid, composer, lambda: _arrays_of(recipe, grid, sizes))
-    quantities = dict(zip(map(str, result.data_vars), QUANTITIES, strict=True))
-    return ChunkedSweep(recipe, grid, quantities, result)
+    return sweep_dataset(path, plan, grid, composer, lambda: _arrays_of(recipe, grid, sizes))
 
 
 def _arrays_of(
@@ -61,7 +49,6 @@ def _arrays_of(
         # Each block is sent its part of the axes and not the whole of them.
         part = da.from_array(axis.given, sizes[axis.dimension])  # type: ignore[no-untyped-call]
         arguments += [part, (places[axis.dimension],)]
-    bare = [replace(axis, shown=axis.shown[:0], given=axis.given[:0]) for axis in grid.axes]
     along = tuple(places.values())
     light = da.blockwise(  # type: ignore[no-untyped-call]
         _run,
@@ -70,7 +57,7 @@ def _arrays_of(
         name=f"light-{token}",
         align_arrays=False,
         meta=np.empty((0,) * len(along), object),
-        bare=SweepGrid(tuple(bare), grid.fixed),
+        bare=grid.part([slice(0)] * len(sizes)),
     )
     detectors = len(detectors_of(recipe.plan))
     front = {len(along): detectors} if detectors > 1 else {}
@@ -96,7 +83,7 @@ def _run(recipe: PlanRecipe, *values: npt.NDArray[Any], bare: SweepGrid) -> Bloc
     axes = [
         replace(axis, shown=own, given=own) for axis, own in zip(bare.axes, values, strict=True)
     ]
-    return run_block(recipe, SweepGrid(tuple(axes), bare.fixed))
+    return run_block(recipe, replace(bare, axes=tuple(axes)))
 
 
 _AT_ONCE = 1 << 18

@@ -129,11 +129,17 @@ def sweep_dataset(
     names, coords = variable_names(grid, plan), coordinates_of(grid, plan)
     dims = (*[DETECTOR] * (len(detectors_of(plan)) > 1), *grid.sizes)
     found = data()
+
+    def variable(dims: Any, values: Any, attrs: Any) -> xr.Variable:
+        return xr.Variable(dims, values, attrs, fastpath=True)  # They are arrays already.
+
     variables = {
-        names[each.variable]: (dims, found[each.variable], attributes_of(each))
+        names[each.variable]: variable(dims, found[each.variable], attributes_of(each))
         for each in QUANTITIES
     }
-    return xr.Dataset(variables, coords, dataset_attributes(path, plan, composer))
+    # Those of an index stay as they are, for xarray to make the index of.
+    whole = {name: each if name == each[0] else variable(*each) for name, each in coords.items()}
+    return xr.Dataset(variables, whole, dataset_attributes(path, plan, composer))
 
 
 def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dict[str, str]]]:

@@ -137,7 +137,9 @@ class BlockStore:
     @cached_property
     def arrays(self) -> dict[str, Any]:
         """The arrays that blocks fill, by name, and that of the marks."""
-        return dict(self.group.arrays()) | {_MARKS: self.group[_MARKS]}
+        # Opened at once, by the metadata in one place, by which xarray opens them as well.
+        known = zarr.open_consolidated(self.group.store, mode="r+", zarr_format=2)
+        return dict(known.arrays()) | {_MARKS: self.group[_MARKS]}
 
     def done(self, job: BlockJob) -> set[int]:
         """Return the numbers of intact blocks, and remove the marks of damaged ones."""

@@ -7,19 +7,24 @@ import secrets
 import shutil
 import sys
 from contextlib import suppress
-from functools import cached_property, partial
+from dataclasses import dataclass
+from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+import dask.array as da
 import numpy as np
 import xarray as xr
 
 from optipath.errors import OptipathError, ParameterError, PathError, shown
+from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.blocks import keep_blocks
-from optipath.sweeps.chunks import ChunkedSweep, run_block
+from optipath.sweeps.chunks import chunk_sizes, run_block
+from optipath.sweeps.datasets import detectors_of, sweep_dataset
+from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.sweeps.store import StoredArray, WholeArray
 
 if TYPE_CHECKING:
@@ -29,8 +34,9 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.light.quantities import LightQuantity
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
     from optipath.sweeps.grid import SweepAxis, SweepGrid
-    from optipath.sweeps.plan_recipe import PlanRecipe
 
     Tell: TypeAlias = Callable[[int, int], None]
 
@@ -54,51 +60,60 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
     tell = progress if callable(progress) else progress_line if progress else None
     if place.endswith(".nc"):
         return stored_in_netcdf(job, Path(place), scheduler, tell)
-    group = keep_blocks(job, place, scheduler, tell)
-    result: xr.Dataset = xr.open_zarr(group.store)
-    for each in result.variables.values():
-        each.encoding = {}  # How it is packed here is for this version of Zarr alone.
-    return result
+    arrays, variables = keep_blocks(job, place, scheduler, tell).arrays, {}
+    for name, each in job.arrays.items():
+        nothing = np.empty((0,) * len(each.dims), each.dtype)  # Else Dask reads what it is like.
+        data = da.from_array(arrays[name], each.chunks, meta=nothing)  # type: ignore[no-untyped-call]
+        variables[name] = each.dims, data, each.attrs
+    return xr.Dataset(variables, job.dataset.coords, job.dataset.attrs)
 
 
-class SweepJob(ChunkedSweep):
-    """A sweep that is computed block by block and kept; see `BlockJob`."""
+@dataclass(frozen=True, eq=False)
+class SweepJob:
+    """A sweep that is computed block by block and kept; see `BlockJob`.
+
+    ``sizes`` says how many values a block has along each dimension of the grid, ``dataset`` has the
+    coordinates and attributes.
+    """
+
+    recipe: PlanRecipe
+    grid: SweepGrid
+    sizes: Mapping[str, int]
+    quantities: Mapping[str, LightQuantity]
+    arrays: Mapping[str, StoredArray]
+    dataset: xr.Dataset
 
     @classmethod
-    def of(cls, chunked: ChunkedSweep) -> SweepJob:
+    def of(
+        cls, path: PathGraph, plan: Plan, grid: SweepGrid, chunks: Any, composer: Any = None
+    ) -> SweepJob:
         """Return the job of a sweep; refuse what stores do not have."""
-        if names := chunked.recipe.without_source:
+        recipe, detectors = PlanRecipe.of(path, composer), len(detectors_of(plan))
+        sizes = chunk_sizes(chunks, grid.sizes, detectors)
+        shape = (*[detectors] * (detectors > 1), *grid.shape)
+        nothing = np.broadcast_to(np.zeros((), plan.dtype), shape)
+        unfilled = {each.variable: nothing for each in QUANTITIES}
+        dataset = sweep_dataset(path, plan, grid, composer, lambda: unfilled)
+        if names := recipe.without_source:
             raise PathError(
                 f"element class '{names[0]}' is defined in no file by which a store could tell it "
                 f"from others; put it at the top level of a module and import it, or leave store= "
                 f"out"
             )
-        if chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
+        if nothing.itemsize > np.dtype("float64").itemsize:
             raise ParameterError(
                 "stores have no numbers of dtype 'longdouble'; leave store= out, or give "
                 "composer=op.Composer(dtype='float64')"
             )
-        return cls(chunked.recipe, chunked.grid, chunked.quantities, chunked.dataset)
-
-    @cached_property
-    def sizes(self) -> dict[str, int]:
-        """How many values a block has along each dimension of the grid."""
-        return {name: self.dataset.chunksizes[name][0] for name in self.grid.sizes}
-
-    @cached_property
-    def arrays(self) -> dict[str, StoredArray]:
-        """The variables, by name."""
-        sizes = self.dataset.chunksizes
-        return {
-            str(name): StoredArray(
-                tuple(map(str, each.dims)),
-                each.shape,
-                tuple([sizes[dimension][0] for dimension in each.dims]),
-                str(each.dtype),
-                each.attrs,
+        arrays = {}
+        for name, each in dataset.data_vars.items():
+            in_blocks = tuple([sizes.get(str(dim), size) for dim, size in each.sizes.items()])
+            arrays[str(name)] = StoredArray(
+                tuple(map(str, each.dims)), each.shape, in_blocks, str(each.dtype), each.attrs
             )
-            for name, each in self.dataset.data_vars.items()
-        }
+        quantities = dict(zip(arrays, QUANTITIES, strict=True))
+        empty = dataset.drop_vars([*dataset.data_vars])
+        return cls(recipe, grid, sizes, quantities, arrays, empty)
 
     @property
     def coords(self) -> dict[str, WholeArray]:
@@ -234,7 +249,7 @@ def stored_in_netcdf(
         return _opened(file, identity)
     place = place_of_blocks(str(file))
     try:
-        _write(file, keep_blocks(job, place, scheduler, tell).store, identity, job)
+        _write(file, keep_blocks(job, place, scheduler, tell).group.store, identity, job)
     except (OptipathError, *_FAULTS):
         # Another run that was faster has put the file there, and removed the store.
         if not file.exists():

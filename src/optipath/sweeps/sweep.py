@@ -48,14 +48,15 @@ def sweep(
             message = fault
         grid_of(plan.inputs, arguments, zip, coords)
         raise message
-    from optipath.sweeps.chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
-
-    chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)
+    chunks = "auto" if chunks is None else chunks
     if place is None:
-        return chunked.dataset
+        from optipath.sweeps.chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
+
+        return swept_in_chunks(path, plan, grid, chunks, composer)
     from optipath.sweeps.stored import SweepJob, stored_sweep  # noqa: PLC0415 - Zarr takes its time
 
-    return stored_sweep(SweepJob.of(chunked), place, scheduler, progress=progress)
+    job = SweepJob.of(path, plan, grid, chunks, composer)
+    return stored_sweep(job, place, scheduler, progress=progress)
 
 
 def _plan(path: PathGraph, composer: Composer | None) -> Plan:

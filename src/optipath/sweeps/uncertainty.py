@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.light.light import Light
     from optipath.plan.inputs import Inputs
 
 
@@ -86,37 +85,26 @@ def propagate(
     light_at = LightAt(request, end, exact, tuple(uncertain))
     light = light_at({})
     if method == "monte-carlo":
-        count = _SAMPLES if samples is None else int(samples)
+        count, start = _SAMPLES if samples is None else int(samples), int(seed or 0)
         block = min(count, samples_at_once(light.shape)), *light.shape
         with enough_for(block, _BYTES_OF_A_SAMPLE, error=ParameterError):
-            return _by_samples(light_at, light, matrix, count, int(seed or 0))
-    if composer is not None:
-        exactly = replace(composer, engine="auto", dtype="float64", tolerance=None, model="auto")
-        light_at = replace(light_at, plan=exactly.compose(path))
-    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
-        return _to_first_order(light_at, light, matrix, method)
-
-
-def _to_first_order(
-    light_at: LightAt, light: Light, correlation: npt.NDArray[np.float64], method: str
-) -> Propagation:
-    slopes, found, rounding = slopes_of(light_at, method)
-    center = light_at({})
-    changes = changes_of(center, slopes, light_at.uncertain, rounding)
-    spread = spread_of(changes, correlation)
-    left = nonlinearity_of(light_at, center, changes, spread.uncertainties, correlation)
-    notes = notes_of_first_order(light, light_at.uncertain, spread.uncertainties, left)
-    mean = np.asarray(light.stokes, np.float64)
+            spread, mean, notes = spread_of_samples(light_at, light, matrix, count, start)
+        found, left = f"Monte Carlo, {count:,} samples, seed {start}", np.zeros_like(spread.shares)
+    else:
+        if composer is not None:
+            exactly = replace(
+                composer, engine="auto", dtype="float64", tolerance=None, model="auto"
+            )
+            light_at = replace(light_at, plan=exactly.compose(path))
+        with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
+            slopes, found, rounding = slopes_of(light_at, method)
+            center = light_at({})
+            changes = changes_of(center, slopes, light_at.uncertain, rounding)
+            spread = spread_of(changes, matrix)
+            left = nonlinearity_of(light_at, center, changes, spread.uncertainties, matrix)
+        notes = notes_of_first_order(light, light_at.uncertain, spread.uncertainties, left)
+        mean = np.asarray(light.stokes, np.float64)
     about = light_at.uncertain, found, tuple(notes)
-    return Propagation(light, mean, spread.covariance, *about, *spread[1:], left)
-
-
-def _by_samples(
-    light_at: LightAt, light: Light, correlation: npt.NDArray[np.float64], count: int, seed: int
-) -> Propagation:
-    spread, mean, notes = spread_of_samples(light_at, light, correlation, count, seed)
-    about = light_at.uncertain, f"Monte Carlo, {count:,} samples, seed {seed}", tuple(notes)
-    left = np.zeros_like(spread.shares)
     return Propagation(light, mean, spread.covariance, *about, *spread[1:], left)
 
 

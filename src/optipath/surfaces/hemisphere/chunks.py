@@ -158,9 +158,9 @@ def kept_sums(
 
     # Whoever asks is warned of coarse meshes, and not workers.
     job.seen.beam.sample.fields()
-    group = keep_blocks(replace(job, threads=int(threads)), store, scheduler, tell)
-    there = [group[name] for name in PartSums._fields]
+    stored = keep_blocks(replace(job, threads=int(threads)), store, scheduler, tell)
+    there = [stored.arrays[name] for name in PartSums._fields]
     result = PartSums.none(job.seen.shape)
     for number in range(job.blocks):
-        result.add(PartSums(*(each[number] for each in there)))  # type: ignore[arg-type, index]
+        result.add(PartSums(*(each[number] for each in there)))
     return result
