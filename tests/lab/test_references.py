@@ -16,7 +16,7 @@ import optipath as op
 from chains import MATERIALS, random_chains
 from optipath.elements.coupling import Coupling
 from optipath.lab.boundary_reference import reflection, transmission
-from optipath.lab.element_reference import mueller
+from optipath.lab.element_reference import matrix_of
 from optipath.lab.errors import errors
 from optipath.lab.many_digits import Reader
 from optipath.lab.path_reference import exact_batch, exact_lights, exact_stokes
@@ -192,7 +192,7 @@ class Registered(Unregistered):
     """One whose matrix is told a second time, in many digits."""
 
 
-@mueller.register
+@matrix_of.register
 def _(element: Registered, way: Coupling, read: Reader):
     del way
     share = read.real(element.share)
@@ -202,7 +202,9 @@ def _(element: Registered, way: Coupling, read: Reader):
 def test_an_element_of_ones_own_has_the_reference_that_is_registered_for_it_alone():
     stokes = of_eye(chain([Registered(op.Parameter("share"))], HALF), share=0.3).stokes
     assert abs(stokes[2] - mpmath.sqrt(mpmath.mpf(0.3)) / 2) <= 1e-49
-    cure = r"class Unregistered have no reference .* register .*element_reference\.jones\.register"
+    cure = (
+        r"class Unregistered have no reference .* register .*element_reference\.matrix_of\.register"
+    )
     for reference in (exact_lights, exact_stokes):
         with pytest.raises(op.PathError, match=cure):
             reference(chain([Unregistered(0.5)], HALF))

@@ -252,7 +252,7 @@ def direction(ray):
 
 
 def frames_of(scene):
-    return {each.port: each.axes for each in scene.frames}
+    return {port: axes for port, (_, axes) in scene.frames.items()}
 
 
 def ways_of(scene):
@@ -266,7 +266,7 @@ def axes_of(frame):
 @rows("preset", preset_names())
 def test_every_preset_has_right_handed_frames_angles_beside_their_arcs_and_plain_json(preset):
     scene = scene_of(op.load_preset(preset))
-    axes = np.array([each.axes for each in (*scene.rays, *scene.frames)])
+    axes = np.array([*(ray.axes for ray in scene.rays), *frames_of(scene).values()])
     eyes = np.broadcast_to(np.eye(3), axes.shape)
     np.testing.assert_allclose(axes @ axes.swapaxes(1, 2), eyes, rtol=0, atol=1e-13)
     assert np.allclose(np.cross(axes[:, 0], axes[:, 1]), axes[:, 2], atol=1e-13)

@@ -51,13 +51,16 @@ if TYPE_CHECKING:
 
 
 @singledispatch
-def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
-    """Return the Jones matrix of a way through; None where only Mueller's will do."""
-    del element, way, read
-    return None
+def matrix_of(element: Element, way: Coupling, read: Reader) -> Any:
+    """Return the Jones matrix of a way through, or Mueller's where only that will do."""
+    del way, read
+    raise PathError(
+        f"elements of class {type(element).__name__} have no reference in many digits: register "
+        f"what computes their matrix with {__name__}.matrix_of.register, or leave them out"
+    )
 
 
-@jones.register
+@matrix_of.register
 def _(element: Interface, way: Coupling, read: Reader) -> Jones:
     before, behind = read.index(element.outside), read.index(element.index)
     angle = read.angle(element.incidence)
@@ -79,7 +82,7 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
     return result.reflected if way.reflects else result.transmitted
 
 
-@jones.register
+@matrix_of.register
 def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
     points = element.in_chain.points_around()
     cos, sin = points.passed_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
@@ -87,7 +90,7 @@ def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
     return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
 
 
-@jones.register
+@matrix_of.register
 def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
     points = element.in_chain.points_around()
     half, across = points.passed_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
@@ -101,7 +104,7 @@ def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
     return boundary(behind / before, *cos_sin(incidence)).transmitted
 
 
-@jones.register
+@matrix_of.register
 def _(element: Vertex, way: Coupling, read: Reader) -> Jones:
     event = float(read.exact(element.event_here))
     if event == Event.BEHIND:
@@ -110,10 +113,10 @@ def _(element: Vertex, way: Coupling, read: Reader) -> Jones:
     at = element.vertices, element.place, element.outside, element.in_chain.count
     with checked_later():  # Other chains have other events.
         alike = kind(element.index, *at, "mask")
-    return jones(alike, way, read)  # type: ignore[return-value]
+    return matrix_of(alike, way, read)  # type: ignore[no-any-return]
 
 
-@jones.register
+@matrix_of.register
 def _(element: FaradayRotator, _: Coupling, read: Reader) -> Jones:
     if element.angle is not None:
         return turn(-read.angle(element.angle, 2))
@@ -121,65 +124,48 @@ def _(element: FaradayRotator, _: Coupling, read: Reader) -> Jones:
     return turn(-read.near_multiple(mpmath.fprod(factors), 2))
 
 
-@jones.register
+@matrix_of.register
 def _(element: Waveplate, _: Coupling, read: Reader) -> Jones:
     path = read.real(element.thickness) * read.real(element.birefringence)
     retardance = 2 * mpmath.pi * path / read.real(element.wavelength)
     return retarding(read, read.move(retardance, 1), element.angle)
 
 
-@jones.register
-def _(element: CircularPolarizer, _: Coupling, read: Reader) -> Jones:
-    shares = read.real(element.transmittance), read.real(element.leakage)
-    return passing_circular(*shares, 1 if element.handedness == "right" else -1)
-
-
-@jones.register
-def _(element: PolarizingBeamSplitter, way: Coupling, read: Reader) -> Jones:
-    ratios = read.real(element.extinction_transmitted), read.real(element.extinction_reflected)
-    return splitting(*ratios, reflects=way.reflects)
-
-
-@jones.register
-def _(element: Attenuator, _: Coupling, read: Reader) -> Jones:
-    root = mpmath.sqrt(read.real(element.transmittance))
-    return diagonal(root, root)
-
-
-@jones.register
+@matrix_of.register
 def _(element: BeamSplitter, way: Coupling, read: Reader) -> Jones:
     reflectance = read.real(element.reflectance)
     root = mpmath.sqrt(reflectance if way.reflects else 1 - reflectance)
     return diagonal(root, -root if way.reflects else root)
 
 
-_FORMULAS: dict[type[Any], Callable[[Any, Reader], Jones]] = {
-    Polarizer: lambda it, read: filtering(read, it.transmittance, it.leakage, it.angle),
-    Diattenuator: lambda it, read: filtering(read, it.maximum, it.minimum, it.angle),
-    Retarder: lambda it, read: retarding(read, read.angle(it.retardance), it.angle),
-    Rotator: lambda it, read: turn(-read.angle(it.angle, 2)),
-    CircularDiattenuator: lambda it, read: passing_circular(
+_FORMULAS: dict[type[Any], Callable[[Any, Coupling, Reader], Any]] = {
+    Polarizer: lambda it, _, read: filtering(read, it.transmittance, it.leakage, it.angle),
+    Diattenuator: lambda it, _, read: filtering(read, it.maximum, it.minimum, it.angle),
+    Attenuator: lambda it, _, read: diagonal(*[mpmath.sqrt(read.real(it.transmittance))] * 2),
+    Retarder: lambda it, _, read: retarding(read, read.angle(it.retardance), it.angle),
+    Rotator: lambda it, _, read: turn(-read.angle(it.angle, 2)),
+    CircularDiattenuator: lambda it, _, read: passing_circular(
         read.real(it.right), read.real(it.left)
     ),
-    Mirror: lambda it, read: diagonal(read.complex(it.r_s), read.complex(it.r_p)),
-    Combiner: lambda _it, _read: diagonal(1, 1),
+    CircularPolarizer: lambda it, _, read: passing_circular(
+        read.real(it.transmittance), read.real(it.leakage), 1 if it.handedness == "right" else -1
+    ),
+    PolarizingBeamSplitter: lambda it, way, read: splitting(
+        read.real(it.extinction_transmitted),
+        read.real(it.extinction_reflected),
+        reflects=way.reflects,
+    ),
+    Mirror: lambda it, _, read: diagonal(read.complex(it.r_s), read.complex(it.r_p)),
+    Combiner: lambda *_: diagonal(1, 1),
+    EllipticalRetarder: lambda it, _, read: exponential(
+        (0, 0, 0), map(read.angle, (it.s1, it.s2, it.s3))
+    ),
 }
 for _kind, _formula in _FORMULAS.items():
-    jones.register(_kind, lambda element, _, read, of=_formula: of(element, read))
+    matrix_of.register(_kind, _formula)
 
 
-@singledispatch
-def mueller(element: Element, way: Coupling, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of a way through what has no Jones matrix."""
-    del way, read
-    raise PathError(
-        f"elements of class {type(element).__name__} have no reference in many digits: register "
-        f"what computes their matrix with {__name__}.jones.register or .mueller.register, "
-        "or leave them out"
-    )
-
-
-@mueller.register
+@matrix_of.register
 def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
     _, sine = cos_sin(read.angle(element.incidence))
     indices = [read.index(index) for index in element.indices]
@@ -193,13 +179,13 @@ def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
     return stack(indices[turn], before.real * sine, depths[turn], way=way.reflects)
 
 
-@mueller.register
+@matrix_of.register
 def _(element: Depolarizer, _: Coupling, read: Reader) -> list[list[Any]]:
     stored = 1 - read.real(element.depolarization)
     return mpmath.diag([1, stored, stored, stored]).tolist()  # type: ignore[no-any-return]
 
 
-@mueller.register
+@matrix_of.register
 def _(_: MuellerElement, way: Coupling, read: Reader) -> list[list[Any]]:
     numbers = [read.real(number) for number in way.operations[0].arguments]
     return [numbers[row : row + 4] for row in range(0, 16, 4)]
@@ -214,7 +200,7 @@ def exponential(dichroism: Any, retardance: Any, depth: Any = 0, depolarization:
     return (mpmath.exp(-depth) * mpmath.expm(generator, method="taylor")).tolist()
 
 
-@mueller.register
+@matrix_of.register
 def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
     length = read.real(element.length)
     depth = length * read.real(element.absorption)
@@ -232,12 +218,6 @@ def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
         depth,
         length * read.real(element.depolarization),
     )
-
-
-@mueller.register
-def _(element: EllipticalRetarder, _: Coupling, read: Reader) -> list[list[Any]]:
-    turns = map(read.angle, (element.s1, element.s2, element.s3))
-    return exponential((0, 0, 0), turns)  # type: ignore[no-any-return]
 
 
 def turn(angle: Any) -> Jones:

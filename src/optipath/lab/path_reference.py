@@ -11,7 +11,7 @@ from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.wiring import Wiring
 from optipath.errors import ParameterError, PathError, shown
-from optipath.lab.element_reference import jones, mueller, times, turn
+from optipath.lab.element_reference import matrix_of, times, turn
 from optipath.lab.many_digits import DIGITS, MANY_DIGITS, WORKING_DIGITS, Reader, exactly, mpmath
 from optipath.paths.path_graph import PathGraph
 from optipath.values.operands import ResultOf
@@ -202,8 +202,7 @@ class _Walk:
             return light
         key = name, coupling.enters, coupling.leaves
         if key not in self._known:
-            matrix = jones(element, coupling, self.read)
-            self._known[key] = matrix or mueller(element, coupling, self.read)
+            self._known[key] = matrix_of(element, coupling, self.read)
         matrix = self._known[key]
         if len(matrix) == 2:
             return passed(matrix, light)

@@ -166,12 +166,9 @@ class Material:
         shapes = {name: as_argument(f"{name} of {label}", v).shape for name, v in arguments.items()}
         if not shapes["n"]:
             n = np.full(shapes["wavelengths"], n)
-        if shapes["k"]:
-            curve = Tabulated(label, ("n", "k"), wavelengths, [n, k], **how)
-            _refuse_unphysical(curve, curve.columns[1])
-            return cls.of_curve(curve, wavelength)
-        curve = Tabulated(label, ("n",), wavelengths, [n], **how)
-        _refuse_unphysical(curve, k)
+        rows = {"n": n, "k": k} if shapes["k"] else {"n": n}
+        curve = Tabulated(label, tuple(rows), wavelengths, [*rows.values()], **how)
+        _refuse_unphysical(curve, curve.columns[1] if shapes["k"] else k)
         return cls.of_curve(curve, wavelength, k)
 
     @classmethod

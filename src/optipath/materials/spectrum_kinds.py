@@ -145,7 +145,8 @@ class SpectrumKind(Unchanging, ABC):
     @property
     def terms(self) -> tuple[SpectrumKind, ...]:
         """What it is the sum of; itself where it is of one kind."""
-        return (self,)
+        result: tuple[SpectrumKind, ...] = vars(self).get("_terms", (self,))
+        return result
 
     @property
     def content(self) -> tuple[Hashable, ...]:
@@ -392,12 +393,6 @@ class SumOfKinds(SpectrumKind):
             beyond=", and ".join(dict.fromkeys(term.beyond for term in ends)),
         )
 
-    _terms: tuple[SpectrumKind, ...]
-
-    @property
-    def terms(self) -> tuple[SpectrumKind, ...]:
-        return self._terms
-
     @property
     def content(self) -> tuple[Hashable, ...]:
         return "sum", *[term.content for term in self.terms]
@@ -531,14 +526,11 @@ def _joined(first: SpectrumKind, second: SpectrumKind) -> SpectrumKind | None:
     """Return the sum of two spectra of one kind that is of this kind again; else None."""
     if isinstance(first, Lines) and isinstance(second, Lines):
         return Lines((*first.lines, *second.lines))
-    if isinstance(first, Sampled) and isinstance(second, Sampled):
-        alike = np.array_equal(first.wavelengths, second.wavelengths)
+    if isinstance(first, Sampled | Histogram) and isinstance(second, type(first)):
+        alike = np.array_equal(first.breaks, second.breaks)
         if alike and first.outside == second.outside != "linear":
-            return replace(first, values=first.values + second.values)
-    if isinstance(first, Histogram) and isinstance(second, Histogram):
-        alike = np.array_equal(first.edges, second.edges)
-        if alike and first.outside == second.outside:
-            return replace(first, powers=first.powers + second.powers)
+            total = getattr(first, first.scaled) + getattr(second, first.scaled)
+            return replace(first, **{first.scaled: total})
     return None
 
 

@@ -133,16 +133,10 @@ def mueller_hemisphere(
 
     Parameters
     ----------
-    measured : Hemisphere
-        What `measure` returned.
+    measured, side, wavelength, known_to
+        As `hemisphere` takes them; `known_to` is 0.1 by default.
     axes : array_like of 4 x 4 Axes, optional
         Where; in a figure of their own by default.
-    side : {"reflected", "transmitted"}, optional
-        Above the sample, or below it.
-    wavelength : float or str, optional
-        One of those measured, where there are several.
-    known_to : float, optional
-        Pixels with a larger standard error are hatched, as those without light are; 0.1 by default.
 
     Returns
     -------
@@ -204,10 +198,8 @@ def differences(
         What `measure` returned, with ``polarized="both"``.
     axes : array_like of 3 Axes, optional
         Where; in a figure of their own by default.
-    side : {"reflected", "transmitted"}, optional
-        Above the sample, or below it.
-    wavelength : float or str, optional
-        One of those measured, where there are several.
+    side, wavelength
+        As `hemisphere` takes them.
 
     Returns
     -------
@@ -267,11 +259,8 @@ def beside_facets(
         What `measure` returned, with ``events=1``.
     axes : array_like of 3 x 4 Axes, optional
         Where; in a figure of their own by default.
-    source : array_like, shape (4,), optional
-        The Stokes vector of the light that comes in, in the frame whose x is horizontal;
-        unpolarised by default.
-    wavelength : float or str, optional
-        One of those measured, where there are several.
+    source, wavelength
+        As `hemisphere` takes them.
 
     Returns
     -------

@@ -181,10 +181,8 @@ def quantity_map(
     x_values, y_values : array_like or str, optional
         As `curve` takes values; by default 121 each over the usual range, and the map is grey
         where the path does not take them.
-    detector : str, optional
-        A detector or a dump; needed only where there are several detectors.
-    **parameters : float or str
-        The other values, as in `PathGraph.trace`, one each.
+    detector, **parameters
+        As `curve` takes them.
 
     Returns
     -------

@@ -61,11 +61,8 @@ def in_plane(
         U, for an unpolarised source, in per cent.
     ax : Axes, optional
         Where; a figure of its own by default, ``.figure`` of what is returned.
-    source : array_like, shape (4,), optional
-        The Stokes vector of the light that comes in, in the frame whose x is horizontal;
-        unpolarised by default.
-    side : {"reflected", "transmitted"}, optional
-        Above the sample, or below it.
+    source, side
+        As `hemisphere` takes them.
     wavelength : float or str, optional
         One of those measured, in metres or with a unit, where there are several; samples that were
         measured at one have that, which the legend tells where it is another.

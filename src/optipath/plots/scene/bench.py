@@ -177,7 +177,7 @@ def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:
         # Of light that arrives, or else that leaves.
         draw_symbol(ax, node, at, flat.sheet @ rays[0].axes[2], _face(scene, flat, node))
         if node.axis is not None:
-            axes = next(frame.axes for frame in scene.frames if frame.port == f"{node.name}.in")
+            _, axes = scene.frames[f"{node.name}.in"]
             dial(ax, at, flat.in_dial(axes, np.array([-node.axis, node.axis])), INK)
 
 

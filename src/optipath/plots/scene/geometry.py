@@ -131,8 +131,8 @@ _TURN, _NARROW = (0.065, 0.025), 0.8
 def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
     """Draw all of a scene but its names."""
     first = len(ax.lines)
-    for plane in scene.planes:
-        _face(ax, view.points(plane.corners), FAINT, 0.09, 1.0)
+    for corners in scene.planes.values():
+        _face(ax, view.points(corners), FAINT, 0.09, 1.0)
     _faces(ax, scene, view)
     for ray in scene.rays:
         _ray(ax, scene, ray, view)
@@ -140,9 +140,9 @@ def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
         _angle(ax, angle, view)
     # Rays that leave end soon, and have no room for a frame.
     leaving = {ray.name for ray in scene.rays if ray.leaves}
-    for frame in (each for each in scene.frames if each.port not in leaving):
-        for axis, colour in zip(frame.axes[:2], (X_COLOUR, Y_COLOUR), strict=True):
-            ends = np.array([frame.at, frame.at + _FRAME * scene.unit * axis])
+    for at, axes in (frame for port, frame in scene.frames.items() if port not in leaving):
+        for axis, colour in zip(axes[:2], (X_COLOUR, Y_COLOUR), strict=True):
+            ends = np.array([at, at + _FRAME * scene.unit * axis])
             _line(ax, view.points(ends), color=colour, lw=1.4, zorder=5.5)
     for node in scene.nodes:
         if node.role in _MARKS:

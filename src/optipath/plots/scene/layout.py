@@ -78,21 +78,6 @@ class SceneRay(NamedTuple):
         return bool(np.isnan(self.light.dop))
 
 
-class ScenePlane(NamedTuple):
-    """A plane of incidence, as a rectangle. Shape: corners (4, 3)."""
-
-    node: str
-    corners: Numbers
-
-
-class SceneFrame(NamedTuple):
-    """The frame of a port. Shapes: at (3,); axes (3, 3)."""
-
-    port: str
-    at: Numbers
-    axes: Numbers
-
-
 class SceneAngle(NamedTuple):
     """An angle that has a name. Shapes: arc (points, 3); at (3,); centre (3,)."""
 
@@ -105,15 +90,18 @@ class SceneAngle(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """A path laid out in space."""
+    """A path laid out in space.
+
+    Planes of incidence are rectangles (4, 3) by nodes; frames a point (3,), axes (3, 3) by ports.
+    """
 
     notes: tuple[str, ...]
     schematic: bool
     unit: float
     nodes: tuple[SceneNode, ...]
     rays: tuple[SceneRay, ...]
-    planes: tuple[ScenePlane, ...]
-    frames: tuple[SceneFrame, ...]
+    planes: dict[str, Numbers]
+    frames: dict[str, tuple[Numbers, Numbers]]
     angles: tuple[SceneAngle, ...]
 
     @property
@@ -140,10 +128,10 @@ class Scene(NamedTuple):
                 }
                 for ray in self.rays
             ],
-            "planes": [_as_dict(plane) for plane in self.planes],
+            "planes": [{"node": n, "corners": _list(c)} for n, c in self.planes.items()],
             "frames": [
-                {"port": each.port, "at": _list(each.at), **_axes(each.axes)}
-                for each in self.frames
+                {"port": port, "at": _list(at), **_axes(axes)}
+                for port, (at, axes) in self.frames.items()
             ],
             "angles": [_as_dict(angle, "centre", "about") for angle in self.angles],
             "bounds": _list(self.bounds),
@@ -269,8 +257,8 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
         unit=placing.unit,
         nodes=tuple(_node(placing, name) for name in names),
         rays=rays,
-        planes=tuple(_planes(placing, rays)),
-        frames=tuple(_frames(placing, lights)),
+        planes=_planes(placing, rays),
+        frames=_frames(placing, lights),
         angles=tuple(_angles(placing)),
     )
 
@@ -306,9 +294,9 @@ def drawn_link(placing: Placing, each: LightOnLink) -> DrawnLink:
     return DrawnLink(tail, tail + _LEAVING * placing.unit * axes[:, 2], axes)
 
 
-def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> list[ScenePlane]:
+def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> dict[str, Numbers]:
     """Return a rectangle for each plane of incidence, which reaches as far as the links."""
-    results = []
+    results = {}
     for name, element in placing.wiring.elements.items():
         posture, at = placing.postures[name], placing.at[name]
         if not isinstance(element, BoundaryElement | ChainVertex) or posture.normal is None:
@@ -323,23 +311,21 @@ def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> list[ScenePlane]:
         foot = min([0.0, *heights]) * posture.normal
         if abs(posture.axes["in"][:, 2] @ across) > _NO_PLANE:
             corners = np.array([foot - side, foot + side, top + side, top - side])
-            results.append(ScenePlane(name, at + corners))
+            results[name] = at + corners
     return results
 
 
-def _frames(placing: Placing, lights: Iterable[LightOnLink]) -> list[SceneFrame]:
+def _frames(placing: Placing, lights: Iterable[LightOnLink]) -> dict[str, tuple[Numbers, Numbers]]:
     """Return the frames of the ports that light passes, beside their nodes."""
-    results: dict[str, SceneFrame] = {}
+    results: dict[str, tuple[Numbers, Numbers]] = {}
     for each in lights:
         drawn, aside = drawn_link(placing, each), _FRAMES_AT * placing.unit
         away = aside * drawn.axes[:, 2]
-        port = f"{each.start}.{each.leaves}"
-        results.setdefault(port, SceneFrame(port, drawn.tail + away, drawn.axes.T))
+        results.setdefault(f"{each.start}.{each.leaves}", (drawn.tail + away, drawn.axes.T))
         if each.end:
-            port = f"{each.end}.{each.enters}"
             axes = placing.axes_entering((each.start, each.end, (each.leaves, each.enters)))
-            results.setdefault(port, SceneFrame(port, drawn.head - away, axes.T))
-    return [*results.values()]
+            results.setdefault(f"{each.end}.{each.enters}", (drawn.head - away, axes.T))
+    return results
 
 
 _AT_SURFACE, _ABOUT_RAY, _ON_PLATE = 0.32, 0.3, 0.3
