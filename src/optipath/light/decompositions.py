@@ -264,7 +264,13 @@ def eigenvalues(matrix: Array) -> Array:
 
 def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
     """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not."""
-    return np.asarray(lack(matrix) <= _tolerance(tolerance, matrix))
+    check_known("the tolerance of is_physical", tolerance)
+    number = tolerance_for(matrix) if tolerance is None else real_number(tolerance)
+    if number is None or number < 0.0:
+        raise ValueFault(
+            f"the tolerance of is_physical is {shown(tolerance)}; give a number >= 0, or none"
+        )
+    return np.asarray(lack(matrix) <= number)
 
 
 def lack(matrix: Array) -> Array:
@@ -293,19 +299,6 @@ def nearest_physical(matrix: Array) -> Array:
     positive = stored @ np.swapaxes(vectors.conj(), -1, -2)
     result = (positive.reshape(*numbers.shape[:-2], 16) @ TO_MUELLER).real
     return np.where(finite, result.reshape(numbers.shape), np.nan)
-
-
-def _tolerance(argument: Any, matrix: Array) -> float:
-    """Return the tolerance of `is_physical`, by the precision of the matrix if none is given."""
-    if argument is None:
-        return tolerance_for(matrix)
-    check_known("the tolerance of is_physical", argument)
-    number = real_number(argument)
-    if number is None or number < 0.0:
-        raise ValueFault(
-            f"the tolerance of is_physical is {shown(argument)}; give a finite number >= 0, or none"
-        )
-    return number
 
 
 def gathered(parts: Array) -> Array:

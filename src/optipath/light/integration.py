@@ -12,7 +12,6 @@ from optipath.materials.illuminants import NANOMETRES, grid_fault, grid_widths
 from optipath.materials.spectrum import check_response
 from optipath.values.domains import Domain
 from optipath.values.jax_values import check_known, is_traced, known, namespace
-from optipath.values.precision import coarser
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -67,7 +66,7 @@ def integrated(light: Light, response: Any = None, edges: Any = None) -> tuple[A
     if response is not None:
         weights = weights * _response_at(response, grid)
     numbers = known(light.stokes)
-    total = weighted_sum(numbers, weights[:, np.newaxis], axis).astype(coarser(numbers))
+    total = weighted_sum(numbers, weights[:, np.newaxis], axis).astype(numbers.dtype)
     noise = None if is_traced(total) else (noise_of_sum, light, weights, axis)
     return total, _frame_without(light, axis), noise
 
@@ -78,13 +77,9 @@ def _along_bins(light: Light, *, one_bin: bool) -> tuple[Light, Array, int]:
     if not one_bin or wavelength is None or is_traced(wavelength) or np.ptp(wavelength) > 0.0:
         return light, *spectral_axis(light)
     behind = light.ndim - wavelength.ndim
-    own = [
-        behind + axis
-        for axis, count in enumerate(wavelength.shape)
-        if count == light.shape[behind + axis] == 1
-    ]
-    if len(own) == 1:
-        return light, wavelength.ravel(), own[0]
+    single = [place for place, count in enumerate(light.shape) if count == 1 and place >= behind]
+    if len(single) == 1:
+        return light, wavelength.ravel()[:1], single[0]
     return light[np.newaxis], wavelength.ravel()[:1], 0
 
 

@@ -236,10 +236,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     @property
     def intensity(self) -> Array:
         """S0, of shape (...)."""
-        parts = self.__dict__.get("_stokes")
-        if type(parts) is tuple and "stokes" not in self.__dict__:
-            return handed_out(parts[0])  # type: ignore[no-any-return]
-        return self.S0
+        return self._component(0)
 
     @property
     def log10_intensity(self) -> Array:
@@ -702,16 +699,15 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     def __mul__(self, factor: Any) -> Light:
         """Return the light times a number, or times numbers that broadcast over the batch."""
-        return self._times(factor, np.multiply)
+        return self._times(factor, multiplied=True)
 
     __rmul__ = __mul__
 
     def __truediv__(self, divisor: Any) -> Light:
         """Return the light divided by a number, or by numbers that broadcast over the batch."""
-        return self._times(divisor, np.divide)
+        return self._times(divisor, multiplied=False)
 
-    def _times(self, factor: Any, done: Callable[[Any, Any], Any]) -> Light:
-        multiplied = done is np.multiply
+    def _times(self, factor: Any, *, multiplied: bool) -> Light:
         if isinstance(factor, Light):
             refuse("light times light has no meaning")
         factor = factor_of_light(factor, dark=multiplied)
@@ -814,7 +810,9 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return known(self.stokes)  # type: ignore[no-any-return]
 
     def _component(self, place: int) -> Array:
-        return handed_out(self._numbers[..., place])  # type: ignore[no-any-return]
+        parts = self.__dict__.get("_stokes")
+        is_apart = type(parts) is tuple and "stokes" not in self.__dict__
+        return handed_out(parts[place] if is_apart else self._numbers[..., place])  # type: ignore[no-any-return]
 
     def _where_there(self, value: Any, *components: int) -> Array:
         """Return a value, NaN where light is dark, or has none of some components, for noise."""

@@ -45,12 +45,9 @@ class Curve(Unchanging, ABC):
         """All that its numbers are made of, the label included; texts, numbers and bytes."""
 
     def arguments(self) -> Sequence[tuple[str, Any, Domain]]:
-        """Return what its numbers are made of besides the wavelength that may be a parameter.
+        """Return what its numbers are made of besides the wavelength: name, value, what it may be.
 
-        Returns
-        -------
-        sequence of tuple
-            A name, a number or `Parameter`, and what it may be, in the order of `numbers`.
+        In the order of `numbers`; a value may be a `Parameter`.
         """
         return ()
 

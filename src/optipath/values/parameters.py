@@ -191,8 +191,7 @@ class Parameter:
         vars(self).update(words={word: float(self.resolve(raw).value) for word, raw in read})
 
     def _one_number(self, what: str, value: Any) -> Any:
-        parse = partial(parse_quantity, dimension=dimension_of(self.unit))
-        read = numbers_for(what, value, parse, ParameterError)
+        read = numbers_for(what, value, partial(self._quantity, default_unit=""), ParameterError)
         array = as_argument(what, read, ParameterError)
         if array.ndim or array.dtype.kind not in "iuf":
             raise ParameterError(f"{what} must be a number, not {shown(value)}")

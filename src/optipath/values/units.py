@@ -88,12 +88,10 @@ _NOTHING = Unit("")
 
 def dimension_of(unit: str) -> str:
     """Return the dimension of a unit, such as ``"angle"``; ``""`` for no unit."""
-    if isinstance(unit, str) and unit == "":
-        return ""
-    if not isinstance(unit, str) or unit not in UNITS:
-        word = unit if isinstance(unit, str) else shown(unit)
-        raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
-    return UNITS[unit].dimension
+    if isinstance(unit, str) and (not unit or unit in UNITS):
+        return UNITS[unit].dimension if unit else ""
+    word = unit if isinstance(unit, str) else shown(unit)
+    raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
 
 
 def units_of(dimension: str) -> list[str]:

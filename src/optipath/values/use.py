@@ -109,10 +109,12 @@ class Use:
             self.domain.check(self.owner, self.value)
             return
         self.domain.check_parameter(self.owner, self.value)
-        unit, name = self.value.unit, self.value.name
-        if unit and dimension_of(unit) != self.domain.dimension:
+        unit, offset = self.value.unit, self.value.offset_dimension
+        is_other = bool(unit) and dimension_of(unit) != self.domain.dimension
+        if is_other or (offset and offset != (self.domain.dimension or PURE)):
+            what = f"is in {unit}" if is_other else f"has an offset that is {with_article(offset)}"
             raise ValueFault(
-                f"parameter '{name}' is in {unit}, but {self.owner} takes "
+                f"parameter '{self.value.name}' {what}, but {self.owner} takes "
                 f"{self.domain.described()}; change its unit or where it is used"
             )
         self._check_multiple()
@@ -126,16 +128,11 @@ class Use:
 
     def _check_multiple(self) -> None:
         """Check that a multiple with an offset can stand here."""
-        value, domain, dimension = self.value, self.domain, self.value.offset_dimension
+        value, domain = self.value, self.domain
         if domain.tail and not value.is_signed:
             raise ValueFault(
                 f"{self.owner} is {value.formula}, but takes several numbers that belong together; "
                 f"compute them in NumPy and give them as the parameter '{value.name}'"
-            )
-        if dimension and dimension != (domain.dimension or PURE):
-            raise ValueFault(
-                f"the offset of parameter '{value.name}' is {with_article(dimension)}, but "
-                f"{self.owner} takes {domain.described()}; change its unit or where it is used"
             )
         if isinstance(value, CurveValue) and value.is_nowhere_0 and takes_0_alone(domain):
             raise ValueFault(

@@ -83,13 +83,11 @@ class Wavelength(Parameter):
     help: str = "wavelength in vacuum"
 
     def __post_init__(self) -> None:
-        fields = {name: getattr(self, name) for name in ("default", "minimum", "maximum")}
-        given = {name: wavelength_of(v) for name, v in fields.items() if isinstance(v, str)}
-        read: dict[str, Any] = {name: v for name, v in given.items() if v is not None}
-        if {"minimum", "maximum"} <= read.keys():
-            # In the order in which energies rise, wavelengths fall.
-            read["minimum"], read["maximum"] = sorted([read["minimum"], read["maximum"]])
-        vars(self).update(read)
+        ends = [wavelength_of(v) for v in (self.minimum, self.maximum) if isinstance(v, str)]
+        energies = [end for end in ends if end is not None]
+        if len(energies) == 2:
+            # In the order in which they rise, wavelengths fall.
+            vars(self).update(minimum=min(energies), maximum=max(energies))
         super().__post_init__()
 
     @property
