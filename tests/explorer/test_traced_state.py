@@ -15,7 +15,7 @@ from optipath.errors import OptipathError
 from optipath.explorer.answers import PageAnswers
 from optipath.explorer.as_json import end_as_json
 from optipath.explorer.paths import ExploredPresets
-from optipath.light.printed import Numbers
+from optipath.light.quantities import Numbers
 from tables import rows, slow
 
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"]}

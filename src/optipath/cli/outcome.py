@@ -11,8 +11,7 @@ import numpy as np
 
 from optipath.cli.console import PlainConsole, cell, headed, title
 from optipath.errors import listed
-from optipath.light.printed import Numbers
-from optipath.light.quantities import PRINTED
+from optipath.light.quantities import PRINTED, Numbers
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import AMPLITUDE, plain
 from optipath.paths.files.writer import complex_parts_of

@@ -9,8 +9,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, listed
 from optipath.explorer.paths import slider_range
-from optipath.light.printed import Numbers
-from optipath.light.quantities import QUANTITIES, LightQuantity
+from optipath.light.quantities import QUANTITIES, LightQuantity, Numbers
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.materials.quantities import plain
 from optipath.paths.energy import energy_along, lights_along

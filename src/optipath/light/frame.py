@@ -174,8 +174,8 @@ class Frame(Unchanging):
         if matrix.shape[-2:] != (3, 3):
             raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
         check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
-        axes = [np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z)]
-        return Frame(*axes, rounding=max(self.rounding, rounding))
+        x, y, z = (np.einsum("...ij,...j->...i", matrix, a) for a in (self.x, self.y, self.z))
+        return Frame(x, y, z, max(self.rounding, rounding))
 
     def reversed(self) -> Frame:
         """Return the frame of light that goes back along this one: (x, -y, -z).

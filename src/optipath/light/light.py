@@ -44,7 +44,6 @@ from optipath.light.polarization_state import (
     turned_stokes,
     where_there,
 )
-from optipath.light.printed import text_of
 from optipath.values.arrays import Unchanging, check_broadcast, locked, read_only, real_array
 from optipath.values.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.precision import coarser
@@ -770,7 +769,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        return text_of(self._numbers, self.frame)
+        return _text_of(self._numbers, self.frame)
 
     def __str__(self) -> str:
         """Return what `repr` does, with 0 for what is no more than rounding."""
@@ -778,7 +777,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         if is_traced(floor):
             return repr(self)
         quiet = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, numbers)
-        return text_of(quiet, self.frame)
+        return _text_of(quiet, self.frame)
 
     def __getstate__(self) -> dict[str, Any]:
         # What computes the noise stays here.
@@ -810,7 +809,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return known(self.stokes)  # type: ignore[no-any-return]
 
     def _component(self, place: int) -> Array:
-        parts = self.__dict__.get("_stokes")
+        parts: Any = self.__dict__.get("_stokes")
         is_apart = type(parts) is tuple and "stokes" not in self.__dict__
         return handed_out(parts[place] if is_apart else self._numbers[..., place])  # type: ignore[no-any-return]
 
@@ -822,3 +821,22 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     def _ellipse(self) -> tuple[Array, Array, Array]:
         """S1, S2 and S3 over S0, 0 where they are no more than noise."""
         return ellipse_of(self._numbers, self.noise)
+
+
+_SHOWN = 6
+"""How many lights of a batch are shown."""
+
+
+def _text_of(numbers: Any, frame: Frame) -> str:
+    """Return light (..., 4) as one writes it, a few of very many."""
+    most = 4 * _SHOWN
+    messages = [
+        repr(numbers)
+        if is_traced(numbers)
+        else np.array2string(numbers, separator=", ", threshold=most, edgeitems=2, prefix="Light(")
+    ]
+    if frame != Frame():
+        messages.append("frame=" + repr(frame))
+    if numbers.size > most:
+        messages.append(f"shape={numbers.shape[:-1]}")
+    return f"Light({', '.join(messages)})"

@@ -509,11 +509,12 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     def _each(self, change: Callable[[Any], Any]) -> Mueller:
         numbers = known(self.matrix)
         flat = each_number(numbers.reshape(*self.shape, 16), change)
-        frames = (
+        of_in, of_out = (
             self._part_of_frame(name, self.shape, change) for name in ("frame_in", "frame_out")
         )
         matrix = flat.reshape(*flat.shape[:-1], 4, 4)
-        return Mueller.of(matrix, *frames, noise=lambda _: change(self.noise), given=self.is_given)
+        noise = lambda _: change(self.noise)  # noqa: E731 - hardly ever asked for
+        return Mueller.of(matrix, of_in, of_out, noise, given=self.is_given)
 
     def _over_m00(self, entries: Array) -> Array:
         """Return entries over M00; NaN where that is no more than noise."""

@@ -5,12 +5,14 @@ A new one is a property of `Light` and a record here.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
 from optipath.light.polarization_state import length
+from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.light.light import Light
+    from optipath.values.parameters import Parameter
 
 
 class Shares(NamedTuple):
@@ -139,3 +142,31 @@ _ELLIPTICITY_ANGLE = LightQuantity(
 )
 QUANTITIES = (*COMPONENTS, *DERIVED)
 PRINTED = (*DERIVED[:4], _ELLIPTICITY_ANGLE, *DERIVED[4:])
+
+
+class Numbers(NamedTuple):
+    """How numbers are written."""
+
+    digits: int
+
+    def text(self, number: float, noise: float = 0.0) -> str:
+        """Return a number as it is printed."""
+        if math.isnan(number):
+            return "not read"
+        return f"{0.0 if abs(number) < noise else number + 0.0:.{self.digits}g}"
+
+    def state(self, number: float) -> str:
+        """Return a number of the polarisation; NaN where light has none."""
+        return "-" if math.isnan(number) else self.text(number)
+
+    def value_of(self, parameter: Parameter) -> str:
+        """Return the value of a parameter, in its unit."""
+        value = parameter.default
+        if not isinstance(value, float):
+            return parameter.text(value)
+        return f"{in_unit(value, parameter.unit):.{self.digits}g} {parameter.unit}".strip()
+
+    def stokes(self, light: Any, index: tuple[int, ...] = ()) -> list[str]:
+        """Return the four components of a light."""
+        noise = float(light.noise[index])
+        return [self.text(component, noise) for component in light.stokes[index].tolist()]

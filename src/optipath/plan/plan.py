@@ -235,9 +235,9 @@ class Plan:
         end = only("detector", names, "mueller(source, detector)", detector)
         matrix = self.answers.matrix(begin, end, parameters)
         ends = program.sources[begin][1], program.readings[end].frame
-        frames = (self.answers.framed(frame, parameters) for frame in ends)
+        before, behind = (self.answers.framed(frame, parameters) for frame in ends)
         noise = partial(matrix_noise_at, self.answers, begin, end, parameters)
-        return Mueller.of(matrix, *frames, noise=noise)
+        return Mueller.of(matrix, before, behind, noise)
 
     def paths(
         self,

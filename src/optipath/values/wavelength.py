@@ -83,8 +83,9 @@ class Wavelength(Parameter):
     help: str = "wavelength in vacuum"
 
     def __post_init__(self) -> None:
-        ends = [wavelength_of(v) for v in (self.minimum, self.maximum) if isinstance(v, str)]
-        energies = [end for end in ends if end is not None]
+        ends: tuple[Any, ...] = self.minimum, self.maximum
+        read = [wavelength_of(end) for end in ends if isinstance(end, str)]
+        energies = [each for each in read if each is not None]
         if len(energies) == 2:
             # In the order in which they rise, wavelengths fall.
             vars(self).update(minimum=min(energies), maximum=max(energies))
