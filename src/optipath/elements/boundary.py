@@ -102,11 +102,14 @@ def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Fr
     """Return the frame of refracted light, of that of the other; None where it is not known."""
     if port != "transmitted" or not {"in", "reflected"} <= frames.keys():
         return None
-    angles = _known_angles(element)
-    if angles is None:
+    operands = operands_of(element)
+    if any(o.value is FOLLOWS or not o.known or o.traced for o in operands) or element.faults(""):
         return None
+    numbers = [operand.numbers() for operand in operands]
+    if broadcast_fault({str(place): number.shape for place, number in enumerate(numbers)}):
+        return None  # Named with all other shapes.
     arriving, reflected = frames["in"], frames["reflected"]
-    front, behind = (np.asarray(angle)[..., np.newaxis] for angle in angles)
+    front, behind = (np.asarray(angle)[..., np.newaxis] for angle in angles_of(np, *numbers))
     # Along the surface, and out of it.
     along, normal = _unit(arriving.z + reflected.z), _unit(reflected.z - arriving.z)
     z = np.where(front > 0.0, np.sin(behind) * along, 0.0) - np.cos(behind) * normal
@@ -118,17 +121,6 @@ def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Fr
 def _unit(vector: Any) -> Any:
     length = np.linalg.norm(vector, axis=-1, keepdims=True)
     return vector / np.where(length > 0.0, length, 1.0)
-
-
-def _known_angles(element: Any) -> tuple[Any, Any] | None:
-    """Return the angles in front and behind, if they are known and allowed."""
-    operands = operands_of(element)
-    if any(o.value is FOLLOWS or not o.known or o.traced for o in operands) or element.faults(""):
-        return None
-    numbers = [operand.numbers() for operand in operands]
-    if broadcast_fault({str(place): number.shape for place, number in enumerate(numbers)}):
-        return None  # Named with all other shapes.
-    return angles_of(np, *numbers)
 
 
 _BOUNCES = ("in", "reflected"), ("back", "transmitted")

@@ -115,8 +115,8 @@ def arriving_waves(owner: str, element: Any, port: str) -> list[ArrivingWave]:
         return []
     incidence, measured = element.measured
     medium = element.medium_at(port)
-    if any(value is FOLLOWS for value in (incidence, measured, medium)) or type(medium) is float:
-        return []  # What it takes over is looked at; a plain number does not absorb.
+    if any(value is FOLLOWS for value in (incidence, measured, medium)):
+        return []  # What it takes over is looked at.
     n, k = numbers_of(medium, INDEX)
     if type(k) is float and k == 0.0:
         return []

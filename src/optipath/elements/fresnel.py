@@ -62,12 +62,8 @@ def fresnel_reflection(
 
     Raises
     ------
-    ValueFault
-        If a value is not allowed.
-    ShapeError
-        If the values do not broadcast.
-    ComposerError
-        If there is no such method or precision.
+    ValueFault, ShapeError, ComposerError
+        If a value is not allowed, values do not broadcast, or there is no such method or precision.
 
     Examples
     --------
@@ -163,12 +159,9 @@ def refraction_angle(
 
     Raises
     ------
-    ValueFault
-        If a value is not allowed, or light arrives at a right angle out of a medium that absorbs.
-    ShapeError
-        If the values do not broadcast.
-    ParameterError
-        If JAX traces one.
+    ValueFault, ShapeError, ParameterError
+        If a value is not allowed, light arrives at a right angle out of a medium that absorbs,
+        values do not broadcast, or JAX traces one.
 
     Examples
     --------

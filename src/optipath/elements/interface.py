@@ -165,7 +165,7 @@ class Mirror(Element, kind="mirror"):
         What the field is multiplied by along s and along p; of a size of 1 or less. Where one
         alone is given, r_p = -r_s, as at normal incidence; -1 and 1 where none is.
     azimuth : float, array_like or Parameter, optional
-        The turn of the frame of ``in`` against the frame of the port before it, in radians.
+        As `Interface` takes it.
 
     Examples
     --------

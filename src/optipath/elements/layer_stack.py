@@ -72,10 +72,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         `Interface`.
     incidence : float, array_like, Parameter or FOLLOWS
         The angle of incidence in radians, 0 to pi/2, in the medium in front.
-    azimuth : float, array_like or Parameter, optional
-        The turn of the frame of ``in``, x = s, against the frame of the port before it; for
-        ``back``, a link may say it.
-    incidence_in, parallel : optional
+    azimuth, incidence_in, parallel : optional
         As `Interface` takes them.
     lengths : sequence of float, array_like or Parameter, optional
         How thick each layer between the first medium and the last is, in metres. Layers that

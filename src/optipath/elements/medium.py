@@ -78,10 +78,8 @@ class Medium(Element, kind="medium"):
         looks at the source.
     retardance : float, array_like or Parameter, optional
         By how many radians per metre the slow component falls behind the fast one.
-    angle : float, array_like or Parameter, optional
-        The fast axis, in radians from x towards y of the medium's frame.
-    azimuth : float, array_like or Parameter, optional
-        The turn of its frame against the frame of the port before it, in radians.
+    angle, azimuth : float, array_like or Parameter, optional
+        The fast axis, and the turn of the medium's frame, as `Retarder` takes them.
     dextrorotation : float, array_like or Parameter, optional
         The optical rotation by the chemists' sign, in radians per metre: positive for what is
         dextrorotatory, (+), and turns light clockwise to who looks at the source. In place of

@@ -17,10 +17,9 @@ class Polarizer(Element, kind="polarizer"):
 
     Parameters
     ----------
-    angle : float, array_like or Parameter, optional
-        The transmission axis, in radians from x towards y of the polariser's frame.
-    azimuth : float, array_like or Parameter, optional
-        The turn of its frame against the frame of the port before it.
+    angle, azimuth : float, array_like or Parameter, optional
+        The transmission axis, in radians from x towards y of the polariser's frame, and the turn
+        of this frame against the frame of the port before it.
     transmittance, leakage : float, array_like or Parameter, optional
         The principal transmittances along and across the axis, 0 to 1.
 
@@ -55,10 +54,8 @@ class Diattenuator(Element, kind="diattenuator"):
         The principal transmittances of the intensity along and across the axis, 0 to 1. The
         axis is that of `maximum`, even where that is the lesser of the two: the diattenuation is
         negative there, and a parameter may run from one side to the other.
-    angle : float, array_like or Parameter, optional
-        The axis, in radians from x towards y of the diattenuator's frame.
-    azimuth : float, array_like or Parameter, optional
-        The turn of its frame against the frame of the port before it, in radians.
+    angle, azimuth : float, array_like or Parameter, optional
+        The axis, and the turn of the diattenuator's frame, as `Polarizer` takes them.
 
     Examples
     --------

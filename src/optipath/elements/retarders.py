@@ -52,11 +52,10 @@ class Retarder(Element, kind="retarder"):
     ----------
     retardance : float, array_like or Parameter
         By how many radians the slow component falls behind the fast one.
-    angle : float, array_like or Parameter, optional
-        The fast axis, in radians from x towards y of the retarder's frame. A quarter-wave
-        plate at 0 turns light polarised at +45 degrees into S3 > 0.
-    azimuth : float, array_like or Parameter, optional
-        The turn of its frame against the frame of the port before it.
+    angle, azimuth : float, array_like or Parameter, optional
+        The fast axis, in radians from x towards y of the retarder's frame, and the turn of this
+        frame against the frame of the port before it. A quarter-wave plate at 0 turns light
+        polarised at +45 degrees into S3 > 0.
 
     Examples
     --------
@@ -93,10 +92,8 @@ class Waveplate(Element, kind="waveplate"):
         -0.172) that of the ordinary ray, across the optic axis.
     wavelength : float, array_like or Parameter
         The wavelength in vacuum, in metres, 1e-12 to 1e-3.
-    angle : float, array_like or Parameter, optional
-        The fast axis, in radians from x towards y of the plate's frame.
-    azimuth : float, array_like or Parameter, optional
-        The turn of its frame against the frame of the port before it, in radians.
+    angle, azimuth : float, array_like or Parameter, optional
+        The fast axis, and the turn of the plate's frame, as `Retarder` takes them.
 
     Examples
     --------
@@ -234,7 +231,7 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
         that at 45, and light of S3 < 0 behind that of S3 > 0; up to 1e15, beyond which floats
         are more than an eighth of a radian apart.
     azimuth : float, array_like or Parameter, optional
-        The turn of its frame against the frame of the port before it, in radians.
+        As `Retarder` takes it.
 
     Examples
     --------
@@ -338,8 +335,7 @@ class FaradayRotator(Element, kind="faraday-rotator"):
     Parameters
     ----------
     angle : float, array_like or Parameter, optional
-        By how many radians the polarisation turns from x towards y, counter-clockwise to who
-        looks at the source, for light that enters at ``in``.
+        As of a `Rotator`, for light that enters at ``in``.
     verdet : float, array_like or Parameter, optional
         The Verdet constant in rad/(T m), -1e9 to 1e9. With a positive one, of most glasses, light
         that goes along the field turns from x towards y (levorotatory, as Hecht has it). That of

@@ -115,8 +115,7 @@ class PolarizingBeamSplitter(Splitter, kind="polarizing-beam-splitter"):
         infinite by default, which 1e30 is, too (a Parameter takes finite ones); ``"1000:1"`` is
         1000. At 1 all would go one way, whatever its polarisation, or any share.
     azimuth : float, array_like or Parameter, optional
-        The turn of the frame of ``in``, x = s, against the frame of the port before it; for
-        ``back``, a link may say it.
+        As `BeamSplitter` takes it.
 
     Examples
     --------

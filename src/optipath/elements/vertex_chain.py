@@ -102,7 +102,7 @@ def vertices_from_angles(
     incidences : sequence of m array_like
         The angles of incidence in radians, 0 to pi/2, in order from the light.
     turns : sequence of m - 1 array_like, optional
-        The turns from each plane of incidence to the next, as `VerticesByAngles` has them.
+        As `VerticesByAngles` takes them.
 
     Returns
     -------
@@ -111,10 +111,8 @@ def vertices_from_angles(
 
     Raises
     ------
-    PathError
-        If the numbers of angles do not fit.
-    ValueFault
-        If an angle is out of its range.
+    PathError, ValueFault
+        If the numbers of angles do not fit, or an angle is out of its range.
 
     Examples
     --------
