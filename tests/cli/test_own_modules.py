@@ -90,10 +90,10 @@ def test_without_it_the_kind_is_unknown_and_a_file_never_says_what_is_imported(f
         ("broken.py", "1 / 0", "'broken.py' raises ZeroDivisionError: division by zero"),
         ("broken.py", "raise SystemExit(0)", "'broken.py' raises SystemExit: 0"),
         ("broken", "import no_such_module", "'broken' raises ModuleNotFoundError: No module named"),
-        ("no_such_module", "", "there is no module 'no_such_module' in this folder or on Python"),
-        ("no_such_file.py", "", "there is no file 'no_such_file.py'"),
-        ("path.toml", "", "a module or a file that ends in .py, not 'path.toml'"),
-        ("", "", "takes the name of a module or a file that ends in .py, not ''"),
+        *(
+            (name, "", f"or a file that ends in .py, and '{name}' is neither; look at its name")
+            for name in ("no_such_module", "no_such_file.py", "path.toml", "")
+        ),
         *(
             (f"{name}.py", "x = 1", f"a module named '{name}' is there already; rename '{name}.py'")
             for name in ("json", "imaplib")  # That is not imported before.

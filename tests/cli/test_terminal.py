@@ -203,7 +203,7 @@ def words_of(text):
 
 
 PLACES = {
-    "show malus --svg": ["", ".", "none/x.svg", "file/x.svg", "/dev/full", "x" * 300, "a\0b"],
+    "show malus --svg": ["", ".", "none/x.svg", "file/x.svg", "/dev/full", "x" * 300],
     "chart malus --out": ["", ".", "none/x.png"],
     "chart malus --data": ["", "."],
     "accuracy --write": ["", "."],

@@ -5,21 +5,20 @@ from __future__ import annotations
 import os
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 import numpy as np
 
 from optipath.cli.options import flag
-from optipath.errors import OptipathError, ParameterError, collecting, shown
+from optipath.errors import OptipathError, ParameterError, shown
 from optipath.values.files import bytes_of, message_of, write_file
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Collection, Sequence
 
-    from optipath.paths.path_graph import PathGraph
     from optipath.plan.inputs import Inputs
     from optipath.values.parameters import Parameter
     from optipath.values.text import AxisValues
@@ -43,27 +42,6 @@ def axis_argument(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisV
         raise ParameterError(*[fault.under(error.about) for fault in error.faults]) from None
 
 
-def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:
-    """Return what is wrong with the values of axes, a sentence each."""
-    faults: list[str] = []
-    for name, values in axes.items():
-        if name in path.parameters:
-            with collecting(faults):
-                path.bind(**{name: values.given})
-    return faults
-
-
-def refuse_axes(command: str, texts: Mapping[str, str | None], axes: Iterable[str]) -> None:
-    """Raise where a command is given several values for a parameter, of which it takes one."""
-    faults = [
-        f"{flag(name)} is given several values, {shown(texts[name])}, of which "
-        f"{command} takes one; give one, or write 'optipath run' or 'optipath sweep'"
-        for name in axes
-    ]
-    if faults:
-        raise ParameterError(*faults)
-
-
 def array_faults(inputs: Inputs, axes: Collection[str] = ()) -> list[str]:
     """Return which parameters have several values in the file, which none of an axis go with."""
     return [
@@ -73,17 +51,9 @@ def array_faults(inputs: Inputs, axes: Collection[str] = ()) -> list[str]:
     ]
 
 
-class NewFile(click.Path):
-    """The name of a file to be written: not empty, and no folder."""
-
-    def __init__(self) -> None:
-        super().__init__(dir_okay=False, path_type=Path)
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path; refuse an empty one, which would be the folder one stands in."""
-        if not str(value) or "\0" in str(value):
-            self.fail(f"{shown(str(value))} is no name of a file.", param, ctx)
-        return super().convert(value, param, ctx)
+OLD_FILE = click.Path(dir_okay=False, exists=True, path_type=Path)
+NEW_FILE = click.Path(dir_okay=False, path_type=Path)
+"""The name of a file to be written, which `check_place` looks at."""
 
 
 def read_text(file: Path) -> str:
@@ -99,8 +69,8 @@ def read_text(file: Path) -> str:
 def check_place(file: Path) -> None:
     """Refuse a file that cannot be written, before the work for it is done."""
     folder = file.absolute().parent
-    if not folder.is_dir():
-        raise OptipathError(f"'{file}' cannot be written: there is no such folder")
+    if not (file.name and folder.is_dir()):
+        raise OptipathError(f"'{file}' cannot be written: there is no such folder or file name")
     if not all(os.access(place, os.W_OK) for place in (folder, file) if place.exists()):
         raise OptipathError(f"'{file}' cannot be written: permission denied")
 
@@ -111,20 +81,17 @@ def write(file: Path, content: bytes) -> None:
         write_file(file, content)
 
 
-def whole(text: str) -> int:
+def number(text: str) -> int:
     """Return a whole number, which may be written as 1e6."""
     with suppress(ValueError):
         return int(text)
     with suppress(ValueError):
-        if (number := float(text)).is_integer():
-            return int(number)
+        if float(text).is_integer():
+            return int(float(text))
     raise click.BadParameter(f"{shown(text)} is no whole number; write one such as 1000, or 1e6")
 
 
-SEED = click.Option(["--seed"], type=whole, metavar="NUMBER", default=0, help="Of the photons.")
+SEED = click.Option(["--seed"], type=number, default=0, help="Of the photons.")
 THREADS = click.Option(
-    ["--threads"],
-    type=whole,
-    metavar="NUMBER",
-    help="How many walk at a time; by default one a processor.",
+    ["--threads"], type=number, help="How many walk at a time; by default one a processor."
 )

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from functools import partial
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.arguments import read_text, write
+from optipath.cli.arguments import OLD_FILE, read_text, write
 from optipath.cli.console import JSON, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.options import StrictCommand
 from optipath.cli.preset_command import PresetGroup
@@ -18,6 +17,7 @@ from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from rich.table import Table
 
@@ -124,10 +124,7 @@ bench = PresetGroup("bench", _bench, (LARGEST, LONG, ENGINE, THREADS, JSON))
 
 
 SAMPLES = click.Option(
-    ["--samples"],
-    type=click.IntRange(1, 100_000),
-    default=200,
-    help="How many boundaries and angles are drawn in each region.",
+    ["--samples"], type=click.IntRange(1, 100_000), default=200, help="Samples in each region."
 )
 SEARCH = click.Option(
     ["--search", "generations"],
@@ -136,9 +133,7 @@ SEARCH = click.Option(
     "for each component in each region; 1000 take about a quarter of an hour.",
 )
 WRITE = click.Option(
-    ["--write", "file"],
-    type=click.Path(dir_okay=False, exists=True, path_type=Path),
-    help="Put the tables into this file, between the lines that mark their place.",
+    ["--write", "file"], type=OLD_FILE, help="Put the tables into this file, between their marks."
 )
 
 

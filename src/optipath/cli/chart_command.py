@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.arguments import NewFile, check_place, read_text, write
+from optipath import plots
+from optipath.cli.arguments import NEW_FILE, OLD_FILE, check_place, read_text, write
 from optipath.cli.console import reported_progress, say
 from optipath.cli.options import given_options
 from optipath.cli.plot_command import title_of
@@ -17,6 +17,7 @@ from optipath.values.files import check_form
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from pathlib import Path
 
     from optipath.cli.preset_command import Chosen
     from optipath.paths.path_graph import PathGraph
@@ -27,13 +28,10 @@ NEAR = ("brewster", "critical", "grazing", "normal")
 """The places of the lab, which is not imported for help; a test compares them."""
 
 OUT = click.Option(
-    ["--out"],
-    type=NewFile(),
-    default="chart.png",
-    help="Draw into this file; its ending says in which form (png, svg, pdf).",
+    ["--out"], type=NEW_FILE, default="chart.png", help="Draw into this file (png, svg, pdf)."
 )
 DATA = click.Option(
-    ["--data"], type=NewFile(), help="Write what was measured into this file, as JSON."
+    ["--data"], type=NEW_FILE, help="Write what was measured into this file, as JSON."
 )
 ENGINE = click.Option(
     ["--engine", "engines"],
@@ -42,9 +40,7 @@ ENGINE = click.Option(
     help="Measure this engine; may be given twice. By default all that are installed.",
 )
 QUICK = click.Option(
-    ["--quick"],
-    is_flag=True,
-    help="Measure fewer samples, and of engines that compile the default method alone.",
+    ["--quick"], is_flag=True, help="Measure fewer samples, and compiled engines by one method."
 )
 AT = click.Option(
     ["--near"],
@@ -54,7 +50,7 @@ AT = click.Option(
 )
 PEERS = click.Option(
     ["--peers"],
-    type=click.Path(dir_okay=False, exists=True, path_type=Path),
+    type=OLD_FILE,
     help="Draw other software beside: what benchmarks/peers/race.py --json wrote.",
 )
 INTERFACE = click.Option(
@@ -62,7 +58,7 @@ INTERFACE = click.Option(
 )
 REDRAW = click.Option(
     ["--from", "source"],
-    type=click.Path(dir_okay=False, exists=True, path_type=Path),
+    type=OLD_FILE,
     help="Draw what was measured before: a file that --data wrote.",
 )
 
@@ -94,10 +90,9 @@ def _chart(chosen: Chosen, **options: Any) -> None:
 def _without_preset(*, interface: bool, source: Path | None, **options: Any) -> None:
     given = given_options()
     if click.get_current_context().invoked_subcommand is not None:
-        if {"--interface", "--from"}.intersection(given):
-            raise click.UsageError("--interface and --from stand for the preset; leave it out")
         if given:
-            raise click.UsageError(f"{given[0]} stands behind the preset; move it there")
+            where = "stands behind the preset, or in its place; move it there, or leave it out"
+            raise click.UsageError(f"{given[0]} {where}")
         return
     if not interface and source is None:
         names = ", ".join(preset_names())
@@ -110,13 +105,7 @@ def _without_preset(*, interface: bool, source: Path | None, **options: Any) -> 
 
 
 def _measure_and_draw(
-    path: PathGraph | None,
-    title: str,
-    *,
-    out: Path,
-    data: Path | None,
-    peers: Path | None,
-    **options: Any,
+    path: PathGraph | None, title: str, *, out: Path, data: Path | None, **options: Any
 ) -> None:
     check_form(out)
     if data is not None and data.absolute() == out.absolute():
@@ -124,14 +113,12 @@ def _measure_and_draw(
     for file in (out, data):
         if file is not None:
             check_place(file)
-    from optipath import plots  # noqa: PLC0415 - an extra
-    from optipath.lab.chart_file import chart_text  # noqa: PLC0415 - ditto
-
+    # Before anything is measured: they tell whether what draws is there.
     draw, save, interrupted = plots.chart, plots.save, False
     stored: dict[str, Any] = {}
     try:
         with reported_progress() as tell:
-            stored.update(_measured(path, title, peers, tell, stored.update, **options))
+            stored.update(_measured(path, title, tell, stored.update, **options))
     except KeyboardInterrupt:
         if not stored:
             raise
@@ -139,9 +126,11 @@ def _measure_and_draw(
         done = stored["regions"]
         say(f"interrupted: {done['measured']} of {done['of']} steps are measured, and are kept")
     if data is not None:
+        from optipath.lab.chart_file import chart_text  # noqa: PLC0415 - an extra
+
         write(data, chart_text(stored).encode())
         say(f"wrote {data}")
-    save(draw(stored, peers=peers), out, _DOTS)
+    save(draw(stored, peers=options["peers"]), out, _DOTS)
     say(f"wrote {out}")
     if interrupted:
         raise KeyboardInterrupt
@@ -153,22 +142,22 @@ _DOTS = 120.0
 def _measured(
     path: PathGraph | None,
     title: str,
-    peers: Path | None,
     tell: Callable[[str, float], object],
     keep: Callable[[dict[str, Any]], object],
     *,
     near: tuple[str, ...],
     quick: bool,
+    peers: Path | None,
     engines: tuple[str, ...] = (),
     source: Path | None = None,
 ) -> Mapping[str, Any]:
     """Return a chart of a path, or of one interface without a path, or out of a file."""
     if source is not None:
-        from optipath.lab.chart_file import read_chart  # noqa: PLC0415
+        from optipath.lab.chart_file import read_chart  # noqa: PLC0415 - an extra
 
         return read_chart(read_text(source), str(source))
-    from optipath.lab import chart as lab  # noqa: PLC0415
-    from optipath.lab.chart_file import check_race  # noqa: PLC0415
+    from optipath.lab import chart as lab  # noqa: PLC0415 - an extra
+    from optipath.lab.chart_file import check_race  # noqa: PLC0415 - ditto
 
     if near:
         places = NEAR if EVERYWHERE in near else near

@@ -17,7 +17,7 @@ import click
 from click.shell_completion import shell_complete
 
 from optipath.cli.interruption import INTERRUPTED, stop
-from optipath.cli.options import WholeHelp
+from optipath.cli.options import WholeHelp, unknown_option
 from optipath.errors import (
     AngleWarning,
     Fault,
@@ -47,7 +47,7 @@ _COMMANDS = {
     "materials": "materials",
     "plot": "plot",
     "polarization": "polarization",
-    "presets": "presets",
+    "presets": "show",
     "run": "run",
     "show": "show",
     "surface": "surface",
@@ -126,7 +126,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(arguments: Sequence[str]) -> int:
     if sys.stdout is None:
-        return _refuse(_no_output("standard output is closed"))
+        return _refuse(OptipathError("the output cannot be written: standard output is closed"))
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", LoopWarning)
@@ -137,6 +137,8 @@ def _run(arguments: Sequence[str]) -> int:
             with needing("some options"):
                 _invoke(arguments)
         sys.stdout.flush()
+    except click.NoSuchOption as error:
+        return _refuse(OptipathError(unknown_option(error)))
     except click.ClickException as error:
         return _refuse(OptipathError(error.format_message()))
     except OptipathError as error:
@@ -148,12 +150,8 @@ def _run(arguments: Sequence[str]) -> int:
         _forget_output()  # Whoever read it has seen enough.
     except OSError as error:
         _forget_output()
-        return _refuse(_no_output(error.strerror or str(error)))
+        return _refuse(OptipathError(f"the output cannot be written: {error.strerror or error}"))
     return 0
-
-
-def _no_output(why: str) -> OptipathError:
-    return OptipathError(f"the output cannot be written: {why}")
 
 
 def _invoke(arguments: Sequence[str]) -> None:
@@ -223,15 +221,17 @@ def import_own(name: str) -> None:
     file = Path(name)
     is_file = file.suffix == ".py"
     module = file.stem if is_file else name
-    taken = f"--import: a module named {shown(module)} is there already; rename {shown(name)}"
-    if is_file and not file.is_file():
-        raise PathError(f"--import: there is no file {shown(name)}")
-    if not is_file and (file.is_file() or not all(map(str.isidentifier, name.split(".")))):
-        raise PathError(
-            f"--import takes the name of a module or a file that ends in .py, not {shown(name)}"
-        )
+    unknown = PathError(
+        f"--import takes a module in this folder or on Python's path, or a file that ends in .py, "
+        f"and {shown(name)} is neither; look at its name"
+    )
+    taken = PathError(
+        f"--import: a module named {shown(module)} is there already; rename {shown(name)}"
+    )
+    if not (file.is_file() if is_file else all(map(str.isidentifier, name.split(".")))):
+        raise unknown
     if is_file and module in sys.stdlib_module_names:  # Python would import the file for its own.
-        raise PathError(taken)
+        raise taken
     folder = str((file.parent if is_file else Path()).resolve())
     sys.path.insert(0, folder)
     invalidate_caches()
@@ -242,13 +242,12 @@ def import_own(name: str) -> None:
     except (MemoryError, OptipathError):
         raise
     except (Exception, SystemExit) as error:
-        fault = f"{shown(name)} raises {type(error).__name__}: {error}"
         if isinstance(error, ModuleNotFoundError) and error.name in (name, name.partition(".")[0]):
-            fault = f"there is no module {shown(name)} in this folder or on Python's path; give "
-            fault += "its name, or a file such as folder/my_elements.py"
-        raise PathError(f"--import: {fault}") from error
+            raise unknown from error
+        fault = f"--import: {shown(name)} raises {type(error).__name__}: {error}"
+        raise PathError(fault) from error
     finally:
         if folder in sys.path:
             sys.path.remove(folder)
     if is_file and getattr(imported, "__file__", None) != str(file.resolve()):
-        raise PathError(taken)
+        raise taken

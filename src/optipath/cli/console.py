@@ -116,15 +116,13 @@ class PlainConsole(Console):
 def _stacked(table: Table) -> Iterator[Any]:
     """Yield the rows of a table one under the other, each label above its values."""
     first, *others = table.columns
-    alone = len(others) == 1
-    heads = [_text(column.header) for column in table.columns[: 2 if alone else 1]]
-    yield from filter(None, [_text(table.title or ""), Text(", ").join(filter(None, heads))])
+    yield from filter(None, map(_text, (table.title or "", first.header)))
     for label, *values in zip(first.cells, *(column.cells for column in others), strict=True):
         yield _text(label)
-        for column, value in zip(others, values, strict=True):
+        for column, value in zip(others, map(_text, values), strict=True):
             header = _text(column.header)
-            parts = (_text(value),) if alone or not header else (header, ": ", _text(value))
-            if _text(value):
+            parts = [header, ": ", value] if header else [value]
+            if value:
                 yield Padding(Text.assemble(*parts, overflow="fold"), (0, 0, 0, 2), expand=False)
     if table.caption:
         yield _text(table.caption)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -19,7 +18,7 @@ from optipath.cli.console import (
     say_wrapped,
     title,
 )
-from optipath.cli.options import StrictCommand, given_options
+from optipath.cli.options import StrictCommand, completed_by, given_options
 from optipath.elements.fresnel import effective_index, fresnel_reflection
 from optipath.errors import MaterialError, collecting, did_you_mean, listed
 from optipath.materials.database import described, known_spans, pages_with
@@ -47,12 +46,9 @@ _VACUUM = {"name": VACUUM, "names": [VACUUM], "page": "", "range": None, "source
 _VACUUM |= {"about": _NOTHING}
 
 
-def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
-    """Return the short names that begin so, for shells."""
-    return [name for one in CURATED for name in one.names if name.startswith(incomplete)]
+_short_names = completed_by(lambda: [name for one in CURATED for name in one.names])
 
-
-WORDS = click.Argument(["words"], nargs=-1, metavar="[SEARCH]", shell_complete=_names)
+WORDS = click.Argument(["words"], nargs=-1, metavar="[SEARCH]", shell_complete=_short_names)
 AT = click.Option(
     ["--at", "wavelengths"],
     metavar="WAVELENGTH",
@@ -90,29 +86,26 @@ def _materials(
             f"{listed(sorted(wrong))} goes with --at; write --at '550 nm' as well"
         )
     # Of vacuum no page is needed.
-    vacuum = alike(name) == VACUUM
-    result = [] if vacuum else pages_with(name.split())
-    if not result and not vacuum:
-        names = [VACUUM, *[name for curated in CURATED for name in curated.names]]
+    is_vacuum = alike(name) == VACUUM
+    result = [] if is_vacuum else pages_with(name.split())
+    if not result and not is_vacuum:
+        names = [VACUUM, *(name for curated in CURATED for name in curated.names)]
         raise MaterialError(f"no page has '{name}'{did_you_mean(name, names)}")
+    with_vacuum = is_vacuum or not words
     if as_json:
-        several = [_as_json(one) for one in result] + [_VACUUM] * (vacuum or not words)
+        several = [_as_json(one) for one in result] + [_VACUUM] * with_vacuum
         say_json({"materials": several, "units": {"range": _UNIT}})
         return
-    _print(result, vacuum=vacuum or not words, everything=not words)
+    rows = [(one.name, _range_text(one), described(one)) for one in result]
+    rows += [(VACUUM, "any wavelength", _NOTHING)] * with_vacuum
+    PlainConsole().print(headed("material", "range", "source", rows=rows, box=None))
+    if not words:
+        say(f"\n{len(catalog_pages())} pages of refractiveindex.info: optipath materials WORD")
 
 
 materials = click.command(
     "materials", cls=StrictCommand, params=[WORDS, AT, PAGE, *OWN, INCIDENCE, DIGITS, JSON]
 )(_materials)
-
-
-def _print(results: list[NamedPage], *, vacuum: bool, everything: bool) -> None:
-    rows = [(one.name, _range_text(one), described(one)) for one in results]
-    rows += [(VACUUM, "any wavelength", _NOTHING)] if vacuum else []
-    PlainConsole().print(headed("material", "range", "source", rows=rows, box=None))
-    if everything:
-        say(f"\n{len(catalog_pages())} pages of refractiveindex.info: optipath materials WORD")
 
 
 def _range_text(one: NamedPage) -> str:
@@ -196,20 +189,17 @@ def material_report(
         raise MaterialError(*faults)
     parts = Material.named(name, page=page, **own)
     there = np.array(where)
-    curves = [part.curve for part in (parts.n, parts.k) if isinstance(part, CurveValue)]
-    for curve, wavelength in product(curves, where):
-        WavelengthRange.of(curve).check("--at", wavelength)
-    n, k = (
-        np.broadcast_to(
-            np.asarray(part.at(there) if isinstance(part, CurveValue) else part, np.float64),
-            there.shape,
-        )
-        for part in (parts.n, parts.k)
-    )
-    index = n + 1j * k
-    reflectance = fresnel_reflection(index, 1.0, 0.0)[0]
-    effective_n, effective_k = effective_index(index, angle)
-    figures = {"n": n, "k": k, "reflectance": reflectance}
-    figures |= {"effective_n": effective_n, "effective_k": effective_k}
-    first: PageCurve | None = curves[0] if curves else None
+    figures: dict[str, npt.NDArray[Any]] = {}
+    curves: list[PageCurve] = []
+    for key, part in (("n", parts.n), ("k", parts.k)):
+        if isinstance(part, CurveValue):
+            curves.append(part.curve)
+            for wavelength in where:
+                WavelengthRange.of(part.curve).check("--at", wavelength)
+        numbers = part.at(there) if isinstance(part, CurveValue) else part
+        figures[key] = np.broadcast_to(np.asarray(numbers, np.float64), there.shape)
+    index = figures["n"] + 1j * figures["k"]
+    figures["reflectance"] = fresnel_reflection(index, 1.0, 0.0)[0]
+    figures["effective_n"], figures["effective_k"] = effective_index(index, angle)
+    first = curves[0] if curves else None
     return MaterialReport(first.label if first else name, first, angle, there, figures)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import click
@@ -12,7 +11,7 @@ from click.core import ParameterSource
 from optipath.errors import did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterable
 
 
 def flag(name: str) -> str:
@@ -29,6 +28,11 @@ def parameter_name(option: str) -> str:
     return option.strip().lstrip("-").replace("-", "_")
 
 
+def completed_by(names: Callable[[], Iterable[str]]) -> Callable[..., list[str]]:
+    """Return what completes a word in shells to one of some names."""
+    return lambda _context, _parameter, begun: [name for name in names() if name.startswith(begun)]
+
+
 def given_options() -> list[str]:
     """Return the options that stand on the command line, without their values."""
     context = click.get_current_context()
@@ -41,15 +45,14 @@ def given_options() -> list[str]:
 
 
 class StrictCommand(click.Command):
-    """A command that says what was meant by options and words for which there is no place."""
+    """A command that says what was meant by words for which there is no place."""
 
     allow_extra_args = True
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Take the options; refuse what is left, and what is given again."""
         words = list(args)
-        with _unknown_options_reported(ctx):
-            left = super().parse_args(ctx, args)
+        left = super().parse_args(ctx, args)
         if ctx.resilient_parsing:
             return left
         # Of the values of an option that takes one, click keeps the last alone.
@@ -57,46 +60,33 @@ class StrictCommand(click.Command):
         for one, count in Counter(order).items():
             is_single = isinstance(one, click.Option) and not (one.multiple or one.is_flag)
             if is_single and count > 1:
-                raise click.UsageError(f"{one.opts[0]} is given {count} times; give it once", ctx)
+                raise click.UsageError(f"{one.opts[0]} is given {count} times; give it once")
         if left:
             raise click.UsageError(
                 f"'{left[0]}' belongs to no option; leave it out, or quote words with spaces "
-                f"between: '30 deg'",
-                ctx,
+                f"between: '30 deg'"
             )
         return left
 
 
-@contextmanager
-def _unknown_options_reported(context: click.Context) -> Iterator[None]:
-    """Let what is said of an unknown option name the one that was meant."""
-    try:
-        yield
-    except click.NoSuchOption as error:
+def unknown_option(error: click.NoSuchOption) -> str:
+    """Return what is said of an unknown option, with the one that was meant."""
+    meant = ""
+    if (context := error.ctx) is not None:
         options = context.command.get_params(context)
         flags = [flag for one in options for flag in sorted(one.opts) if flag.startswith("-")]
         meant = did_you_mean(error.option_name, flags)
         if isinstance(context.command, click.Group) and "did you mean" not in meant:
             meant = "; options of a command stand behind its name, those of a preset behind that"
-        raise click.UsageError(f"option '{error.option_name}' is unknown{meant}", context) from None
-
-
-_LONGEST = 1000
-"""No line of help is longer, whatever the terminal."""
+    return f"option '{error.option_name}' is unknown{meant}"
 
 
 class WholeHelp(click.Group):
-    """A group of commands whose help cuts no sentence short."""
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Take the options of the group; say of others what was meant."""
-        with _unknown_options_reported(ctx):
-            return super().parse_args(ctx, args)
+    """A group of commands whose help cuts no sentence short, whatever the terminal."""
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write a line for each subcommand, which goes on in the next where it is long."""
         commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
-        rows = [(n, c.get_short_help_str(_LONGEST)) for n, c in commands.items() if c is not None]
-        if rows:
-            with formatter.section("Commands"):
-                formatter.write_dl(rows)
+        rows = [(n, c.get_short_help_str(1000)) for n, c in commands.items() if c is not None]
+        with formatter.section("Commands"):
+            formatter.write_dl(rows)

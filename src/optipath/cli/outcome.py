@@ -52,24 +52,20 @@ class Outcome:
     def single(self) -> dict[str, Parameter]:
         """The parameters that have one value, by name."""
         varied = {axis.name for axis in self.grid.axes}
-        known = self.path.parameters
-        return {name: parameter for name, parameter in known.items() if name not in varied}
+        return {name: one for name, one in self.path.parameters.items() if name not in varied}
 
     @cached_property
     def case(self) -> Case:
         """The case, if these are the values it belongs to; else an empty one."""
-        name = self.chosen.case
-        is_changed = bool(self.chosen.values or self.grid.axes)
+        name, is_changed = self.chosen.case, self.chosen.values or self.grid.axes
         return Case({}) if name is None or is_changed else self.path.cases[name]
 
     @property
     def model(self) -> str:
         """The model that was run; both, where some paths took the exact one."""
         instead, exact = self.plan.instead, self.plan.reduction.model
-        if instead is None:
-            return exact
-        within = self.errors <= instead.most
-        if not within.any():
+        within = np.False_ if instead is None else self.errors <= instead.most
+        if instead is None or not within.any():
             return exact
         return instead.model if within.all() else f"{instead.model}, {exact}"
 
@@ -79,20 +75,16 @@ class Outcome:
         approximation = self.plan.answers.approximation
         assert approximation is not None  # noqa: S101 - asked for by who knows
         result = approximation.errors_for(self.grid.given())
-        is_idle = self.grid.varied is not self.grid
-        return np.broadcast_to(result, self.grid.shape) if is_idle else result
+        return result if self.grid.varied is self.grid else np.broadcast_to(result, self.grid.shape)
 
     @property
     def materials(self) -> dict[str, Any]:
-        """The materials that were given, with n and k at each wavelength; {} without any."""
-        if not (argument := list(materials_among(self.chosen.values))):
-            return {}
-        known = self.path.parameters
-        wavelength = known[WAVELENGTH.name].default if WAVELENGTH.name in known else None
-        along = [axis.given for axis in self.grid.axes if axis.name == WAVELENGTH.name]
-        wavelength = along[0] if along else wavelength
-        results = {name: material_as_json(label, one, wavelength) for name, label, one in argument}
-        return {"materials": results}
+        """The materials that were given, with n and k at each wavelength."""
+        name, known = WAVELENGTH.name, self.path.parameters
+        along = [axis.given for axis in self.grid.axes if axis.name == name]
+        wavelength = along[0] if along else known[name].default if name in known else None
+        given = materials_among(self.chosen.values)
+        return {name: material_as_json(label, one, wavelength) for name, label, one in given}
 
 
 def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> Outcome:
@@ -114,44 +106,43 @@ def _laid_out(light: Light, grid: SweepGrid) -> Light:
 
 def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
     """Return what a run has found as JSON can hold it, with all digits."""
-    plan, parameters = outcome.plan, outcome.single
+    plan, chosen, parameters = outcome.plan, outcome.chosen, outcome.single
     parts = complex_parts_of(outcome.path.graph)
     axes: dict[str, dict[str, Any]] = {}
     for axis in outcome.grid.axes:
         # Those along one dimension vary together.
         along = {"dimension": axis.dimension} if axis.dimension != axis.name else {}
         axes[axis.name] = {**along, "unit": axis.unit, "values": axis.shown.tolist()}
-    results: dict[str, Any] = {
-        "preset": outcome.chosen.preset,
+    tolerance: dict[str, Any] = {}
+    if (instead := plan.instead) is not None:
+        tolerance = {"most": instead.most, "model": instead.model, "exact": plan.reduction.model}
+        tolerance["error"] = plain(outcome.errors)
+    results = {
+        "preset": chosen.preset,
         "parameters": {
             name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
             for name, p in parameters.items()
         },
-        **outcome.materials,
-        **({"choices": outcome.chosen.places} if outcome.chosen.places else {}),
-        **({"axes": axes} if axes else {}),
+        "materials": outcome.materials,
+        "choices": chosen.places,
+        "axes": axes,
         "units": {name: p.unit for name, p in parameters.items() if p.unit},
         "model": outcome.model,
         "method": plan.method,
         "engine": outcome.engine,
+        "tolerance": tolerance,
+        "case": chosen.case,
+        "note": outcome.case.note,
+        "detectors": {name: _reading(outcome, name) for name in plan.program.detectors},
+        "dumps": {name: _reading(outcome, name) for name in plan.program.dumps},
     }
-    if (instead := plan.instead) is not None:
-        allowed = {"most": instead.most, "model": instead.model, "exact": plan.reduction.model}
-        results["tolerance"] = {**allowed, "error": plain(outcome.errors)}
-    if outcome.chosen.case:
-        results["case"] = outcome.chosen.case
-    if outcome.case.note:
-        results["note"] = outcome.case.note
-    results["detectors"] = {name: _reading(outcome, name) for name in plan.program.detectors}
-    dumps = {name: _reading(outcome, name) for name in plan.program.dumps}
-    return results | ({"dumps": dumps} if dumps else {})
+    always = "parameters", "units", "detectors"
+    return {name: value for name, value in results.items() if value or name in always}
 
 
 def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
     published, light = outcome.case.published.get(name), outcome.lights[name]
-    messages: dict[str, Any] = {
-        key: plain(each.of(light), each.shown_unit) for key, each in FIGURES.items()
-    }
+    messages = {key: plain(each.of(light), each.shown_unit) for key, each in FIGURES.items()}
     messages["units"] = {key: each.shown_unit for key, each in FIGURES.items() if each.shown_unit}
     results = {"stokes": plain(light.stokes), "polarization": messages}
     return results | ({"published": list(published)} if published else {})
@@ -179,11 +170,8 @@ def print_arguments(console: PlainConsole, outcome: Outcome, numbers: Numbers) -
     console.print(title(outcome.chosen.title, outcome.path.description))
     labels = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
     opened, choices = outcome.chosen.opened.parameters, outcome.path.choices
-    rows = [
-        (name, numbers.value_of(parameter), parameter.help)
-        for name, parameter in outcome.single.items()
-        if name not in labels
-    ]
+    single = {name: one for name, one in outcome.single.items() if name not in labels}
+    rows = [(name, numbers.value_of(one), one.help) for name, one in single.items()]
     rows += [(name, label, opened[name].help) for name, label in labels.items()]
     rows += [(name, word, choices[name].help) for name, word in outcome.chosen.places.items()]
     rows += [(a.name, span_text(a, numbers.digits), a.help) for a in outcome.grid.axes]
@@ -196,38 +184,36 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
     first = next(iter(outcomes.values()))
     counted = f"{len(outcomes)} case{'s' * (len(outcomes) != 1)}"
     console.print(title(f"{first.chosen.preset}, {counted}", first.path.description))
-    labels = {name: label for name, label, _ in materials_among(first.chosen.values)}
-    for name, value in {**first.chosen.values, **labels}.items():
-        parameter = None if name in labels else first.path.parameters.get(name)
-        text = value if parameter is None else numbers.value_of(parameter)
-        console.print(cell(f"{name} {text}"))
+    texts = {name: numbers.value_of(one) for name, one in first.path.parameters.items()}
+    texts |= {name: label for name, label, _ in materials_among(first.chosen.values)}
+    for name, value in first.chosen.values.items():
+        console.print(cell(f"{name} {texts.get(name, value)}"))
     for axis in first.grid.axes:
         console.print(cell(f"{axis.name} {span_text(axis, digits)}"))
     rows: list[list[str]] = []
-    for case, outcome in outcomes.items():
-        for name, light in outcome.lights.items():
-            several = _case_rows(light, numbers, outcome.grid)
-            rows += [[f"{case}{place}", name, *texts] for place, *texts in several]
-            if published := outcome.case.published.get(name):
-                rows.append([f"{case}, published", name, *(f"{n:g}" for n in published)])
-    console.print(headed("case", "at", *_STOKES, rows=rows))
     notes: dict[str, list[str]] = {}
     for case, outcome in outcomes.items():
-        if outcome.case.note:
-            notes.setdefault(outcome.case.note, []).append(case)
+        for name, light in outcome.lights.items():
+            several = _rows(light, numbers, outcome.grid)
+            rows += [[f"{case} {place}".rstrip(), name, *texts] for place, *texts in several]
+            if published := outcome.case.published.get(name):
+                rows.append([f"{case}, published", name, *(f"{n:g}" for n in published)])
+        notes.setdefault(outcome.case.note, []).append(case)
+    console.print(headed("case", "at", *_STOKES, rows=rows))
     for note, cases in notes.items():
-        console.print(cell(f"note on case{'s' * (len(cases) > 1)} {listed(cases)}: {note}"))
+        if note:
+            console.print(cell(f"note on case{'s' * (len(cases) > 1)} {listed(cases)}: {note}"))
     console.print(cell(ran([*outcomes.values()])))
 
 
-def _case_rows(light: Light, numbers: Numbers, grid: SweepGrid) -> Iterator[list[str]]:
+def _rows(light: Light, numbers: Numbers, grid: SweepGrid) -> Iterator[list[str]]:
     """Yield what is told of each light of a batch: which it is, and its components."""
     for index in islice(np.ndindex(light.intensity.shape), _ROWS):
-        values = ", ".join(point_texts(grid, index, numbers.digits))
-        place = values or (str(list(index)) if index else "")
-        yield [f" {place}".rstrip(), *numbers.stokes(light, index)]
+        values = zip(grid.axes, _values_at(grid, index, numbers.digits), strict=True)
+        place = ", ".join(f"{axis.name} {text} {axis.unit}".rstrip() for axis, text in values)
+        yield [place or (str(list(index)) if index else ""), *numbers.stokes(light, index)]
     if (more := light.intensity.size - _ROWS) > 0:
-        yield [f" {more} more", *[""] * 4]
+        yield [f"{more} more", *[""] * 4]
 
 
 def ran(outcomes: Sequence[Outcome]) -> str:
@@ -241,32 +227,30 @@ def ran(outcomes: Sequence[Outcome]) -> str:
 
 
 def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
-    light, published = outcome.lights[name], outcome.case.published.get(name)
+    light, corner = outcome.lights[name], f"light at {name}"
+    published = [f"{number:g}" for number in outcome.case.published.get(name) or ()]
     if outcome.grid.axes:
-        return point_table(f"light at {name}", light, outcome.grid, numbers)
+        return point_table(corner, light, outcome.grid, numbers)
     if light.stokes.ndim > 1:
-        rows = [[text.strip() for text in row] for row in _case_rows(light, numbers, SweepGrid(()))]
-        rows += [["published", *(f"{number:g}" for number in published)]] if published else []
-        return headed(f"light at {name}", *_STOKES, rows=rows)
-    rows = [[word, text] for word, text in zip(_STOKES, numbers.stokes(light), strict=True)]
-    if published:
-        rows = [[*row, f"{number:g}"] for row, number in zip(rows, published, strict=True)]
-    rows += _state_rows(light, numbers)
-    return headed(f"light at {name}", "computed", *["published"] * bool(published), rows=rows)
+        rows = [*_rows(light, numbers, outcome.grid)]
+        rows += [["published", *published]] if published else []
+        return headed(corner, *_STOKES, rows=rows)
+    columns = [_STOKES, numbers.stokes(light), *[published] * bool(published)]
+    rows = [*map(list, zip(*columns, strict=True)), *_state_rows(light, numbers)]
+    return headed(corner, "computed", *["published"] * bool(published), rows=rows)
 
 
 def _state_rows(light: Light, numbers: Numbers) -> Iterator[list[str]]:
     """Yield what is told of light besides its components."""
-    unread = bool(np.isnan(light.stokes).any())
+    is_read = not np.isnan(light.stokes).any()
     partly = " of the polarised part" if float(light.dop) < 1.0 - _SMALL else ""
     for each in PRINTED:
-        word, unit = each.printed, each.shown_unit
-        number = plain(each.of(light), unit)
+        number = plain(each.of(light), each.shown_unit)
         if number is not None:
-            behind = partly if "ellipsometry" in word else ""
-            yield [word, f"{numbers.text(number)} {unit}".strip() + behind]
-        elif not unread:
-            yield [word, "-"]
+            behind = partly if "ellipsometry" in each.printed else ""
+            yield [each.printed, f"{numbers.text(number)} {each.shown_unit}".strip() + behind]
+        elif is_read:
+            yield [each.printed, "-"]
 
 
 MOST_ROWS = 200
@@ -275,24 +259,17 @@ MOST_ROWS = 200
 _FEW = 5
 
 
-def printed_value(value: Any, digits: int) -> str:
-    """Return a value of an axis as it is printed."""
-    return value if isinstance(value, str) else f"{value + 0.0:.{digits}g}"
+def _texts(values: Sequence[Any], digits: int) -> list[str]:
+    """Return values of an axis as they are printed."""
+    return [one if isinstance(one, str) else f"{one + 0.0:.{digits}g}" for one in values]
 
 
 def span_text(axis: SweepAxis, digits: int) -> str:
     """Return which values an axis has, in a few words."""
     if len(axis) <= _FEW:
-        texts = [printed_value(value, digits) for value in axis.shown.tolist()]
-        return f"{', '.join(texts)} {axis.unit}".rstrip()
-    ends = [printed_value(axis.shown[place].item(), digits) for place in (0, -1)]
-    return f"{' .. '.join(ends)} {axis.unit}".rstrip() + f", {len(axis):,} values"
-
-
-def point_texts(grid: SweepGrid, index: Sequence[int], digits: int) -> Iterator[str]:
-    """Yield the value of each axis at a point of a grid, with its name and unit."""
-    for axis, text in zip(grid.axes, _values_at(grid, index, digits), strict=True):
-        yield f"{axis.name} {text} {axis.unit}".rstrip()
+        return f"{', '.join(_texts(axis.shown.tolist(), digits))} {axis.unit}".rstrip()
+    ends = " .. ".join(_texts(axis.shown[[0, -1]].tolist(), digits))
+    return f"{ends} {axis.unit}".rstrip() + f", {len(axis):,} values"
 
 
 def point_table(
@@ -322,10 +299,7 @@ def point_table(
 def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> Table:
     """Return S0 for a grid of two axes: a row for each value of the first."""
     down, across = grid.axes
-    heads, labels = (
-        [printed_value(value, numbers.digits) for value in axis.shown.tolist()]
-        for axis in (across, down)
-    )
+    heads, labels = (_texts(axis.shown.tolist(), numbers.digits) for axis in (across, down))
     corner = f"{heading(down.name, down.unit)} \\ {heading(across.name, across.unit)}"
     rows = [
         [label, *(numbers.stokes(light, (row, place))[0] for place in range(len(across)))]
@@ -336,4 +310,4 @@ def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> 
 
 def _values_at(grid: SweepGrid, index: Sequence[int], digits: int) -> list[str]:
     places = dict(zip(grid.sizes, index, strict=False))  # A batch without names has no sizes.
-    return [printed_value(axis.shown[places[axis.dimension]].item(), digits) for axis in grid.axes]
+    return _texts([axis.shown[places[axis.dimension]].item() for axis in grid.axes], digits)

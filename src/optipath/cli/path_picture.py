@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from itertools import accumulate, pairwise
+from math import inf
 from statistics import fmean
 from typing import TYPE_CHECKING, TypeAlias
-from xml.etree.ElementTree import Element as Tag
-from xml.etree.ElementTree import SubElement, indent, tostring
+from xml.sax.saxutils import escape
 
 import networkx as nx
 from rich.cells import cell_len, chop_cells
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from optipath.composer.wiring import Link
-    from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
 
 
@@ -55,6 +54,22 @@ text { fill: #e8e8e8 } .faint { fill: #b0b0b0 } .page { fill: #16191d }
 """
 
 
+_PAGE = """\
+<svg xmlns="http://www.w3.org/2000/svg" width="{width:g}" height="{height:g}" role="img" \
+aria-labelledby="title description" viewBox="0 0 {width:g} {height:g}">
+<title id="title">{title}</title>
+<desc id="description">{description}</desc>
+<style>{style}</style>
+<marker id="head" viewBox="0 0 10 10" refX="9" refY="5" orient="auto" markerWidth="7" \
+markerHeight="7">
+<path d="M0 1L10 5L0 9z" class="head" />
+</marker>
+<rect width="100%" height="100%" class="page" />
+{drawn}
+</svg>
+"""
+
+
 def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
     """Return the drawing of a path, as SVG.
 
@@ -63,33 +78,31 @@ def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
     name += f", case {case}" if case else ""
     graph = _Graph(path)
     width = max(_NARROWEST, graph.width + 2 * _MARGIN)
-    page = _page(path, name)
+    drawn: list[str] = []
     below = _MARGIN
     for text, size, kind in ((name, _TITLE, "title"), (path.description, _SMALL + 1, "ink")):
         for line in lines_of(text, int((width - 2 * _MARGIN) / text_width("x", size))):
             below += size * 1.4
-            _add_text(page, line, _MARGIN, below, kind, size)
-    below = graph.draw(page, (width - graph.width) / 2, below + _MARGIN) + _MARGIN
-    for rows, most in _legend(path, case):
-        below = _add_table(page, rows, most, below)
-    page.attrib |= {"width": f"{width:g}", "height": f"{below:g}"}
-    page.set("viewBox", f"0 0 {width:g} {below:g}")
-    indent(page, "")
-    return tostring(page, "unicode") + "\n"
-
-
-def _page(path: PathGraph, name: str) -> Tag:
-    page = Tag("svg", {"xmlns": "http://www.w3.org/2000/svg", "width": "0", "height": "0"})
-    page.attrib |= {"role": "img", "aria-labelledby": "title description"}
-    SubElement(page, "title", {"id": "title"}).text = f"The path {drawable(name)}"
-    messages = [drawable(line) for line in (path.description, *draw(path).splitlines())]
-    SubElement(page, "desc", {"id": "description"}).text = "\n".join(messages)
-    SubElement(page, "style").text = _STYLE
-    head = {"id": "head", "viewBox": "0 0 10 10", "refX": "9", "refY": "5", "orient": "auto"}
-    marker = SubElement(page, "marker", {**head, "markerWidth": "7", "markerHeight": "7"})
-    SubElement(marker, "path", {"d": "M0 1L10 5L0 9z", "class": "head"})
-    SubElement(page, "rect", {"width": "100%", "height": "100%", "class": "page"})
-    return page
+            drawn.append(_text(line, _MARGIN, below, kind, size))
+    below = graph.draw(drawn, (width - graph.width) / 2, below + _MARGIN) + _MARGIN
+    if rows := parameter_rows(path):
+        below = _add_table(drawn, [headings(case), *rows], (22, 22, 24), below)
+    named: dict[str, list[str]] = defaultdict(list)
+    for one, values in path.cases.items():
+        named[values.note].append(one)
+    if named:
+        notes = [("cases", ""), *((", ".join(names), note) for note, names in named.items())]
+        most = _LEGEND_CELLS - 4 if [*named] == [""] else 22
+        below = _add_table(drawn, notes, (most,), below)
+    described = "\n".join(map(drawable, (path.description, *draw(path).splitlines())))
+    return _PAGE.format(
+        width=width,
+        height=below,
+        title=escape(f"The path {drawable(name)}"),
+        description=escape(described),
+        style=_STYLE,
+        drawn="\n".join(drawn),
+    )
 
 
 class _Graph:
@@ -110,7 +123,7 @@ class _Graph:
             self.labels[link] = drawable(leaves + tap), drawable(enters + turn)
         self.boxes = {name: self._box(name, wiring) for name in order}
         self.places = self._places()
-        self.right = max([place + self._right(one) for one, place in self.places.items()])
+        self.right = max(place + self._right(item) for item, place in self.places.items())
         self.width = self.right + 1.5 * _LANE * len(self.back)
 
     def _box(self, name: str, wiring: Wiring) -> _Box:
@@ -124,10 +137,7 @@ class _Graph:
             several.sort(key=lambda one: place[near[one]] if one in near else len(place))
             return {link: self.labels[link][end] for link in several}
 
-        outlets = [
-            one for one in wiring.elements[name].outputs if f"{name}.{one}" in wiring.outlets
-        ]
-        return _Box(name, wiring.elements[name], outlets, beside(0), beside(1))
+        return _Box(name, wiring, beside(0), beside(1))
 
     def _left(self, item: Item) -> float:
         return self.boxes[item].width / 2 if isinstance(item, str) else 9.0
@@ -136,30 +146,25 @@ class _Graph:
         return self.boxes[item].right if isinstance(item, str) else 9.0
 
     def _places(self) -> dict[Item, float]:
-        """Return the middle of each item: near those that it is linked with, and over none."""
+        """Return the middle of each item: below what it comes from, or as far left as it can."""
         above: dict[Item, list[tuple[Item, float]]] = defaultdict(list)
-        below: dict[Item, list[tuple[Item, float]]] = defaultdict(list)
         for link, way in self.ways.items():
-            leaves, enters = self.boxes[link[0]].leaving[link], self.boxes[link[1]].entering[link]
-            offsets = [leaves, *[0.0] * (len(way) - 2), enters]
-            for (upper, left), (lower, right) in pairwise(zip(way, offsets, strict=True)):
-                above[lower].append((upper, left - right))
-                below[upper].append((lower, right - left))
-        places: dict[Item, float] = {item: 0.0 for row in self.rows for item in row}
-        for sweep in range(_SWEEPS):
-            # At last downwards, so that a chain hangs straight from where it begins.
-            near, rows = (above, self.rows) if sweep % 2 else (below, self.rows[::-1])
-            for row in rows:
-                room = [self._right(one) + _GAP + self._left(other) for one, other in pairwise(row)]
-                wanted = [
-                    fmean(places[one] + shift for one, shift in near[item] or [(item, 0.0)])
-                    for item in row
-                ]
-                places |= zip(row, _apart(wanted, room), strict=True)
+            shifts = [0.0] * (len(way) - 1)
+            shifts[0] = self.boxes[link[0]].leaving[link]
+            shifts[-1] -= self.boxes[link[1]].entering[link]
+            for (upper, lower), shift in zip(pairwise(way), shifts, strict=True):
+                above[lower].append((upper, shift))
+        places: dict[Item, float] = {}
+        for row in self.rows:
+            end = -inf
+            for item in row:
+                wanted = [places[one] + shift for one, shift in above[item]] or [0.0]
+                places[item] = max(fmean(wanted), end + self._left(item))
+                end = places[item] + self._right(item) + _GAP
         left = min(place - self._left(item) for item, place in places.items())
         return {item: place - left for item, place in places.items()}
 
-    def draw(self, page: Tag, left: float, top: float) -> float:
+    def draw(self, drawn: list[str], left: float, top: float) -> float:
         """Draw all at a place; return where it ends."""
         lanes = _LABEL + _LANE * (len(self.back) + 1) if self.back else 0.0
         between = 2 * _LABEL + _BEND + _LANE * len(self.back)
@@ -174,24 +179,25 @@ class _Graph:
             x = places[link[0]] + self.boxes[link[0]].leaving[link]
             to = places[link[1]] + self.boxes[link[1]].entering[link]
             y = tops[begin] + self.boxes[link[0]].height
-            drawn = f"M{x:g} {y:g}"
-            _add_text(page, leaves, x + _BESIDE, y + 14, "faint")
-            _add_text(page, enters, to + _BESIDE, tops[end] - 10, "faint")
+            way = f"M{x:g} {y:g}"
+            drawn.append(_text(leaves, x + _BESIDE, y + 14, "faint"))
+            drawn.append(_text(enters, to + _BESIDE, tops[end] - 10, "faint"))
             if link in self.ways:
                 columns = [x, *(places[item] for item in self.ways[link][1:-1]), to]
                 for number, (here, there) in enumerate(pairwise(columns), begin):
-                    y = bottoms[number] + _LABEL
-                    under = tops[number + 1] - _LABEL
+                    y, under = bottoms[number] + _LABEL, tops[number + 1] - _LABEL
                     middle = (y + under) / 2
-                    drawn += f"V{y:g}C{here:g} {middle:g} {there:g} {middle:g} {there:g} {under:g}"
+                    way += f"V{y:g}C{here:g} {middle:g} {there:g} {middle:g} {there:g} {under:g}"
             else:
                 lane = 1 + self.back.index(link)
                 column = left + self.right + 1.5 * _LANE * lane
-                y, over = (bottoms[begin] + _LABEL, tops[end] - _LABEL)
-                drawn += f"V{y + _LANE * lane:g}H{column:g}V{over - _LANE * lane:g}H{to:g}"
-            _add_arrow(page, f"{drawn}V{tops[end]:g}", "link tap" if link in self.taps else "link")
+                y, over = bottoms[begin] + _LABEL + _LANE * lane, tops[end] - _LABEL - _LANE * lane
+                way += f"V{y:g}H{column:g}V{over:g}H{to:g}"
+            drawn.append(
+                _arrow(f"{way}V{tops[end]:g}", "link tap" if link in self.taps else "link")
+            )
         for name, box in self.boxes.items():
-            box.draw(page, places[name] - box.width / 2, tops[self.layer[name]])
+            box.draw(drawn, places[name] - box.width / 2, tops[self.layer[name]])
         return bottoms[-1] + lanes
 
 
@@ -199,47 +205,42 @@ class _Box:
     """What is drawn of a node: texts, outlets, and where links leave and enter, from its middle."""
 
     def __init__(
-        self,
-        name: str,
-        element: Element,
-        outlets: Sequence[str],
-        leaving: Mapping[Link, str],
-        entering: Mapping[Link, str],
+        self, name: str, wiring: Wiring, leaving: Mapping[Link, str], entering: Mapping[Link, str]
     ) -> None:
+        element = wiring.elements[name]
         self.texts = [(line, _NAME, "name") for line in lines_of(name, _BOX_CELLS - 4)]
         for kind, texts in (("faint", [element.kind]), ("ink", element_values(element))):
             self.texts += [(line, _SMALL, kind) for t in texts for line in lines_of(t, _BOX_CELLS)]
+        outlets = [port for port in element.outputs if f"{name}.{port}" in wiring.outlets]
         self.outlets = [f"{drawable(port)}: leaves the path" for port in outlets]
         inner = element.inputs and element.outputs
         self.role = "inner" if inner else "end" if element.inputs else "source"
         self.leaving, self.entering = _slots(leaving), _slots(entering)
-        slots = [*self.leaving.items(), *self.entering.items()]
-        reach = [2 * abs(place) for _, place in slots]
+        slots = [*self.leaving.values(), *self.entering.values()]
         widths = [text_width(line, size) for line, size, _ in self.texts]
-        self.width = max(_NARROWEST_BOX, *(2 * _PADDING + each for each in (*widths, *reach)))
+        widths += [2 * abs(place) for place in slots]
+        self.width = max(_NARROWEST_BOX, 2 * _PADDING + max(widths))
         lines = 2 * _PADDING + _STEP * len(self.texts)
         self.height = max(lines, _OUTLET * (len(self.outlets) + 1))
-        labels = [*leaving.values(), *entering.values()]
-        starts = [self.width / 2 + _ARROW] * len(outlets) + [place for _, place in slots]
+        starts = [self.width / 2 + _ARROW] * len(outlets) + slots
+        labels = [*self.outlets, *leaving.values(), *entering.values()]
         beside = [
-            start + _BESIDE + text_width(label)
-            for start, label in zip(starts, [*self.outlets, *labels], strict=True)
+            start + _BESIDE + text_width(label) for start, label in zip(starts, labels, strict=True)
         ]
         self.right = max(self.width / 2, *beside)
         """How far it reaches from its middle, with what is written beside."""
 
-    def draw(self, page: Tag, x: float, y: float) -> None:
+    def draw(self, drawn: list[str], x: float, y: float) -> None:
         """Draw it at a place."""
-        size = {"width": f"{self.width:g}", "height": f"{self.height:g}", "rx": "6"}
-        attributes = {"x": f"{x:g}", "y": f"{y:g}", **size, "class": f"box {self.role}"}
-        SubElement(page, "rect", attributes)
+        size = f'width="{self.width:g}" height="{self.height:g}" rx="6"'
+        drawn.append(f'<rect x="{x:g}" y="{y:g}" {size} class="box {self.role}" />')
         for number, (line, letters, kind) in enumerate(self.texts):
             below = y + _PADDING + _STEP * number + 0.9 * letters
-            _add_text(page, line, x + _PADDING, below, kind, letters)
+            drawn.append(_text(line, x + _PADDING, below, kind, letters))
         for number, message in enumerate(self.outlets, 1):
             height, begin = y + _OUTLET * number, x + self.width
-            _add_arrow(page, f"M{begin:g} {height:g}H{begin + _ARROW:g}", "link")
-            _add_text(page, message, begin + _ARROW + _BESIDE, height + 4, "faint")
+            drawn.append(_arrow(f"M{begin:g} {height:g}H{begin + _ARROW:g}", "link"))
+            drawn.append(_text(message, begin + _ARROW + _BESIDE, height + 4, "faint"))
 
 
 def _slots(labels: Mapping[Link, str]) -> dict[Link, float]:
@@ -270,27 +271,25 @@ def graph_layers(
     """
     place = {name: number for number, name in enumerate(order)}
     onwards = [link for link in links if place[link[0]] < place[link[1]]]
-    layer = dict.fromkeys(order, 0)
-    for start, end, _ in sorted(onwards, key=lambda link: place[link[0]]):
-        layer[end] = max(layer[end], layer[start] + 1)
+    graph = nx.DiGraph(link[:2] for link in onwards)
+    graph.add_nodes_from(order)
+    layer = {n: at for at, names in enumerate(nx.topological_generations(graph)) for n in names}
     # Where nothing comes from above, a node stands next to what it sends light to.
-    for name in {start for start, _, _ in onwards} - {end for _, end, _ in onwards}:
-        layer[name] = min(layer[end] for start, end, _ in onwards if start == name) - 1
+    for name in order:
+        if graph.succ[name] and not graph.pred[name]:
+            layer[name] = min(layer[later] for later in graph.succ[name]) - 1
     rows: list[list[Item]] = [[] for _ in range(1 + max(layer.values(), default=0))]
     for name in order:
         rows[layer[name]].append(name)
     ways: dict[Link, list[Item]] = {}
+    items: nx.DiGraph[Item] = nx.DiGraph()
+    items.add_nodes_from(order)
     for link in onwards:
-        passed: list[tuple[Link, int]] = [
-            (link, at) for at in range(layer[link[0]] + 1, layer[link[1]])
-        ]
+        passed = [(link, at) for at in range(layer[link[0]] + 1, layer[link[1]])]
         for item in passed:
             rows[item[1]].append(item)
         ways[link] = [link[0], *passed, link[1]]
-    items = nx.DiGraph()
-    items.add_nodes_from(order)
-    for way in ways.values():
-        nx.add_path(items, way)
+        nx.add_path(items, ways[link])
     for sweep in range(_SWEEPS):
         near, turned = (items.succ, rows[::-1]) if sweep % 2 else (items.pred, rows)
         middle: dict[Item, float] = {}
@@ -301,22 +300,6 @@ def graph_layers(
             )
             middle |= {item: (number + 0.5) / len(row) for number, item in enumerate(row)}
     return rows, ways
-
-
-def _apart(wanted: Sequence[float], room: Sequence[float]) -> list[float]:
-    """Return places nearest to those wanted (least squares), with room between neighbors.
-
-    Isotonic regression by pooling adjacent violators, of places less the room before them.
-    """
-    before = [*accumulate(room, initial=0.0)]
-    pools: list[list[float]] = []
-    for place, taken in zip(wanted, before, strict=True):
-        pools.append([place - taken])
-        while len(pools) > 1 and fmean(pools[-2]) > fmean(pools[-1]):
-            last = pools.pop()
-            pools[-1] += last
-    level = [fmean(pool) for pool in pools for _ in pool]
-    return [one + taken for one, taken in zip(level, before, strict=True)]
 
 
 def headings(case: str | None) -> tuple[str, str, str, str]:
@@ -337,26 +320,9 @@ def parameter_rows(path: PathGraph) -> list[tuple[str, str, str, str]]:
     return rows
 
 
-_Table: TypeAlias = "tuple[list[tuple[str, ...]], Sequence[int]]"
-"""Rows, and how many letters a line of each column has at most, but of the last."""
-
-
-def _legend(path: PathGraph, case: str | None) -> list[_Table]:
-    """Return the tables below a path: its parameters, and its cases with their notes."""
-    tables: list[_Table] = []
-    if rows := parameter_rows(path):
-        tables.append(([headings(case), *rows], (22, 22, 24)))
-    named: dict[str, list[str]] = {}
-    for name, each in path.cases.items():
-        named.setdefault(each.note, []).append(name)
-    if named:
-        notes = [(", ".join(names), note) for note, names in named.items()]
-        most = _LEGEND_CELLS - 4 if [*named] == [""] else 22
-        tables.append(([("cases", ""), *notes], (most,)))
-    return tables
-
-
-def _add_table(page: Tag, rows: Sequence[tuple[str, ...]], most: Sequence[int], y: float) -> float:
+def _add_table(
+    drawn: list[str], rows: Sequence[tuple[str, ...]], most: Sequence[int], y: float
+) -> float:
     """Add a table whose last column takes the room that the others leave; return where it ends."""
     *first, last = zip(*rows, strict=True)
     columns = [[lines_of(c, cells) for c in each] for each, cells in zip(first, most, strict=True)]
@@ -367,7 +333,7 @@ def _add_table(page: Tag, rows: Sequence[tuple[str, ...]], most: Sequence[int], 
         for left, lines in zip(lefts, row, strict=True):
             kind = "name" if number == 0 or left == _MARGIN else "ink"
             for at, line in enumerate(lines):
-                _add_text(page, line, left, y + _SMALL + _STEP * at, kind)
+                drawn.append(_text(line, left, y + _SMALL + _STEP * at, kind))
         y += _STEP * max(map(len, row)) + 4
     return y + _STEP
 
@@ -377,15 +343,17 @@ def text_width(text: str, size: float = _SMALL) -> float:
     return cell_len(text) * _CELL * size
 
 
-def _add_text(page: Tag, text: str, x: float, y: float, kind: str, size: float = _SMALL) -> None:
-    """Add a text of one line, stretched or squeezed to the width that is reckoned with."""
-    place = {"x": f"{x:g}", "y": f"{y:g}", "class": kind, "font-size": f"{size:g}"}
-    place |= {"textLength": f"{text_width(text, size):g}", "lengthAdjust": "spacingAndGlyphs"}
-    SubElement(page, "text", place).text = text
+def _text(text: str, x: float, y: float, kind: str, size: float = _SMALL) -> str:
+    """Return a text of one line, stretched or squeezed to the width that is reckoned with."""
+    return (
+        f'<text x="{x:g}" y="{y:g}" class="{kind}" font-size="{size:g}" '
+        f'textLength="{text_width(text, size):g}" lengthAdjust="spacingAndGlyphs">'
+        f"{escape(text)}</text>"
+    )
 
 
-def _add_arrow(page: Tag, drawn: str, kind: str) -> None:
-    SubElement(page, "path", {"d": drawn, "class": kind, "marker-end": "url(#head)"})
+def _arrow(way: str, kind: str) -> str:
+    return f'<path d="{way}" class="{kind}" marker-end="url(#head)" />'
 
 
 _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

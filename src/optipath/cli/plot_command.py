@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 import numpy as np
 
-from optipath.cli.arguments import NewFile, array_faults, check_place
+from optipath import plots
+from optipath.cli.arguments import NEW_FILE, array_faults, check_place
 from optipath.cli.console import say
 from optipath.cli.options import flag, parameter_name
 from optipath.cli.preset_command import READS, PresetGroup
-from optipath.errors import ParameterError, collecting, listed, shown, unknown
+from optipath.errors import ParameterError, collecting, did_you_mean, listed, shown, unknown
 from optipath.materials.named_materials import WAVELENGTH, materials_among
 from optipath.paths.files.presets import preset_of_case
 from optipath.values.files import check_form
 from optipath.values.units import displayed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from pathlib import Path
 
     from matplotlib.figure import Figure
@@ -38,7 +38,7 @@ class PlotRequest:
     title: str
     path: PathGraph
     axes: dict[str, AxisValues | None]
-    quantities: tuple[str, ...]
+    quantities: list[str]
     ends: tuple[str, ...]
     published: Mapping[str, tuple[float, ...]]
 
@@ -63,20 +63,18 @@ def request_of(
     reads: str | None,
 ) -> PlotRequest:
     """Return what a command line asks for."""
-    names = [parameter_name(name) for name in x]
-    axes = {name: chosen.axes.get(name) for name in [*names, *chosen.axes]}
-    quantities = tuple(["S0"] if y is None else [name.strip() for name in y.split(",")])
-    opened = chosen.opened
-    if chosen.case is not None:
-        opened = preset_of_case(opened, chosen.preset, chosen.case)
+    axes = {name: chosen.axes.get(name) for name in [*map(parameter_name, x), *chosen.axes]}
+    quantities = [name.strip() for name in ("S0" if y is None else y).split(",")]
+    opened = preset_of_case(chosen.opened, chosen.preset, chosen.case)
     # All that nobody has given stays open.
     path = replace(chosen, opened=opened, case=None).path(reads)
     plan = path.compose()
-    known, (detectors, dumps) = [*plan.inputs.open], (plan.program.detectors, plan.program.dumps)
+    detectors, dumps = plan.program.detectors, plan.program.dumps
     faults = [] if detector is None else unknown("detector", detector, [*detectors, *dumps])
     faults += array_faults(plan.inputs)
-    faults += _axis_faults(chosen, names, known)
-    faults += _count_faults(kind, axes, known)
+    faults += _axis_faults(kind, axes, [*plan.inputs.open])
+    if len({*x}) < len(x):
+        faults.append(f"--x is given again with the name {x[-1]}; give each name once")
     if len(axes) > 1 and len(quantities) > 1:
         faults.append(f"a map is of one quantity, and --y names {len(quantities)}; give one")
     if detector is not None and kind == "poincare" and not axes:
@@ -87,56 +85,32 @@ def request_of(
     if faults:
         raise ParameterError(*faults)
     ends = (*(detectors or dumps),) if detector is None else (detector,)
-    changed = bool(chosen.values or chosen.axes or reads)
-    published = {} if changed or chosen.case is None else path.cases[chosen.case].published
+    is_changed = chosen.values or chosen.axes or reads or chosen.case is None
+    published = {} if is_changed else path.cases[chosen.case or ""].published
     title = title_of(chosen, reads=reads, at=detector)
     return PlotRequest(kind, title, path, axes, quantities, ends, published)
-
-
-def _axis_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
-    """Return what is wrong with what varies, a sentence each."""
-    faults = []
-    for name, count in Counter(names).items():
-        if count > 1:
-            faults.append(f"--x {name} is given {count} times; give it once")
-        if name in chosen.opened.choices:
-            faults.append(
-                f"--x {name} is a place, of which no axis has several; give {flag(name)} WORD"
-            )
-        elif name in chosen.values:
-            faults.append(
-                f"--x {name} varies what {flag(name)} gives one value; leave one of them out"
-            )
-        else:
-            faults += unknown("--x", name, known)
-    for name, values in chosen.axes.items():
-        words = [one for one in values.shown.tolist() if isinstance(one, str) and one[:1].isalpha()]
-        if words:
-            faults.append(
-                f"{flag(name)} has the word {shown(words[0])}, and an axis is of numbers; leave it "
-                f"out"
-            )
-        if name not in known:
-            faults.append(
-                f"{flag(name)} is given several values, and nothing depends on it; leave it out"
-            )
-    return faults
 
 
 _AT_MOST = "no parameter", "one parameter at most", "two parameters at most"
 
 
-def _count_faults(kind: str, axes: Collection[str], known: Sequence[str]) -> list[str]:
-    """Return what is wrong with how many parameters vary, a sentence each."""
+def _axis_faults(kind: str, axes: Mapping[str, Any], known: Sequence[str]) -> list[str]:
+    """Return what is wrong with what varies, and with how much does, a sentence each."""
+    faults = [
+        f"a picture is along parameters that have no single value, and {shown(name)} is none of "
+        f"them{did_you_mean(name, known)}"
+        for name in axes
+        if name not in known
+    ]
     counts = KINDS[kind].counts
     if len(axes) > counts[-1]:
         vary = f"{listed([flag(name) for name in axes])} var{'ies' if len(axes) == 1 else 'y'}"
-        return [f"--kind {kind} is along {_AT_MOST[counts[-1]]}, and {vary}; give one value"]
-    if len(axes) >= counts[0]:
-        return []
-    example = flag(next(iter(known), "NAME"))
-    ways = f"name it, --x {example[2:]}, or give it several values, {example} START:STOP:COUNT"
-    return [f"--kind {kind} is along a parameter; {ways}"]
+        faults.append(f"--kind {kind} is along {_AT_MOST[counts[-1]]}, and {vary}; give one value")
+    elif len(axes) < counts[0]:
+        name = next(iter(known), "NAME")
+        ways = f"name it, --x {flag(name)[2:]}, or give it several values, {flag(name)} "
+        faults.append(f"--kind {kind} is along a parameter; {ways}START:STOP:COUNT")
+    return faults
 
 
 class PlotKind(NamedTuple):
@@ -158,73 +132,65 @@ def drawn(request: PlotRequest) -> Any:
     return figure
 
 
-def _ellipse(request: PlotRequest) -> Any:
-    from optipath.plots import ellipse  # noqa: PLC0415 - an extra
-    from optipath.plots.axes import own_panel  # noqa: PLC0415 - ditto
+def _panel(count: int, width: float, height: float) -> Any:
+    """Return axes beside one another."""
+    from optipath.plots.axes import own_panel  # noqa: PLC0415 - an extra
 
+    return own_panel(None, (1, count), (width * count, height))
+
+
+def _ellipse(request: PlotRequest) -> Any:
     lights, count = request.path.trace_all(), len(request.ends)
     if count == 1:
-        return ellipse({request.end: lights[request.end]})
-    panel = own_panel(None, (1, count), (5.0 * count, 5.8))
+        return plots.ellipse({request.end: lights[request.end]})
+    panel = _panel(count, 5.0, 5.8)
     for name, ax in zip(request.ends, panel.flat, strict=True):
-        ellipse(lights[name], ax, labels=name)
+        plots.ellipse(lights[name], ax, labels=name)
     return panel
 
 
 def _poincare(request: PlotRequest) -> Any:
     if not request.axes:
-        from optipath.plots import poincare_path  # noqa: PLC0415 - an extra
-
-        return poincare_path(request.path)
-    from optipath.plots.poincare_sphere import parameter_trail  # noqa: PLC0415 - ditto
+        return plots.poincare_path(request.path)
+    from optipath.plots.poincare_sphere import parameter_trail  # noqa: PLC0415 - an extra
 
     ((name, values),) = request.axes.items()
     return parameter_trail(request.path, name, request.end, _texts(values))
 
 
 def _stokes(request: PlotRequest) -> Any:
-    from optipath.plots import stokes  # noqa: PLC0415 - an extra
-    from optipath.plots.light_texts import MOST  # noqa: PLC0415 - ditto
+    from optipath.plots.light_texts import MOST  # noqa: PLC0415 - an extra
 
     if len(request.ends) > MOST:
         raise ParameterError(
             f"the path has {len(request.ends)} detectors, and their bars are told apart up to "
             f"{MOST}; add --detector {request.ends[0]}"
         )
-    lights = request.path.trace_all()
-    published = {
-        name: request.published[name] for name in request.ends if name in request.published
-    }
-    return stokes({name: lights[name] for name in request.ends}, published=published or None)
+    lights, known = request.path.trace_all(), request.published
+    published = {name: known[name] for name in request.ends if name in known}
+    return plots.stokes({name: lights[name] for name in request.ends}, published=published or None)
 
 
 def _mueller(request: PlotRequest) -> Any:
-    from optipath.plots import mueller  # noqa: PLC0415 - an extra
-    from optipath.plots.axes import own_panel  # noqa: PLC0415 - ditto
-
-    program = request.path.compose().program
-    ways = [(source, end) for end in request.ends for source in program.sources]
+    sources = request.path.compose().program.sources
+    ways = [(source, end) for end in request.ends for source in sources]
     if len(ways) == 1:
-        return mueller(request.path.mueller(*ways[0]))
-    panel = own_panel(None, (1, len(ways)), (5.6 * len(ways), 5.4))
+        return plots.mueller(request.path.mueller(*ways[0]))
+    panel = _panel(len(ways), 5.6, 5.4)
     for (source, end), ax in zip(ways, panel.flat, strict=True):
-        mueller(request.path.mueller(source, end), ax)
+        plots.mueller(request.path.mueller(source, end), ax)
         ax.set_title(f"{source} to {end}\n{ax.get_title()}", parse_math=False)
     return panel
 
 
 def _curve(request: PlotRequest) -> Any:
-    from optipath.plots import curve, quantity_map  # noqa: PLC0415 - an extra
-
-    (x, values), *other = request.axes.items()
-    if not other:
-        return curve(
-            request.path, x, request.quantities, values=_texts(values), detector=request.end
-        )
-    ((y, y_values),) = other
-    (quantity,) = request.quantities
-    argument: Any = {"x_values": _texts(values), "y_values": _texts(y_values)}
-    return quantity_map(request.path, x, y, quantity, detector=request.end, **argument)
+    path, end, names = request.path, request.end, request.quantities
+    (x, values), *others = ((name, _texts(values)) for name, values in request.axes.items())
+    if not others:
+        return plots.curve(path, x, names, values=values, detector=end)
+    ((y, y_values),) = others
+    argument: Any = {"x_values": values, "y_values": y_values}
+    return plots.quantity_map(path, x, y, names[0], detector=end, **argument)
 
 
 def _texts(values: AxisValues | None) -> Any:
@@ -236,8 +202,6 @@ def _texts(values: AxisValues | None) -> Any:
 
 def _of_path(request: PlotRequest) -> Any:
     """Draw a picture of the path alone."""
-    from optipath import plots  # noqa: PLC0415 - an extra
-
     return getattr(plots, request.kind)(request.path)
 
 
@@ -273,7 +237,7 @@ DETECTOR = click.Option(
 )
 OUT = click.Option(
     ["--out"],
-    type=NewFile(),
+    type=NEW_FILE,
     metavar="FILE",
     help="Draw into this file, which is needed; its ending is .png, .svg or .pdf.",
 )
@@ -281,9 +245,7 @@ OUT = click.Option(
 
 def _plot(chosen: Chosen, *, kind: str, out: Path, **requests: Any) -> None:
     """Draw a preset, or a TOML file, and its light into a file."""
-    # Before anything is computed: it tells whether what draws is there.
-    from optipath.plots import save  # noqa: PLC0415 - an extra
-
+    save = plots.save  # Before anything is computed: it tells whether what draws is there.
     save(drawn(request_of(chosen, kind, **requests)), out)
     say(f"wrote {out}")
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from optipath.cli.arguments import RANGES, axis_argument, axis_faults, refuse_axes
+from optipath.cli.arguments import RANGES, axis_argument
 from optipath.cli.console import JSON, say
 from optipath.cli.options import StrictCommand, WholeHelp, flag
 from optipath.composer.composer import CHOICES
@@ -42,7 +42,6 @@ from optipath.values.wavelength import Wavelength
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping, Sequence
 
-    from optipath.paths.binding import PlaceChoice
     from optipath.paths.path_graph import PathGraph
     from optipath.values.parameters import Parameter
     from optipath.values.use import Use
@@ -86,17 +85,14 @@ class PresetGroup(WholeHelp):
         several: Callable[..., None] | None = None,
         *,
         ranges: bool = False,
-        faults: Callable[..., Sequence[str]] | None = None,
+        faults: Callable[..., Sequence[str]] = lambda **_: (),
         **keywords: Any,
     ) -> None:
         usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
         keywords = {**usual, "help": action.__doc__, **keywords}
         super().__init__(name, invoke_without_command=True, **keywords)
-        self.action = action
-        self.options = tuple(options)
-        self.several = several
-        self.ranges = ranges
-        self.faults = faults or (lambda **_: ())
+        self.action, self.several = action, several
+        self.options, self.ranges, self.faults = tuple(options), ranges, faults
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the presets."""
@@ -106,38 +102,58 @@ class PresetGroup(WholeHelp):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
         """Return the command of a preset, with its parameters as options."""
         del ctx
-        path = load_preset(cmd_name)
-        parameters = path.parameters
+        path, command = load_preset(cmd_name), self.name or ""
         names = {option.name or "" for option in self.options}
         flags = {each.lstrip("-") for option in self.options for each in option.opts}
-        if taken := sorted({*parameters, *path.choices} & {*names, *flags, "case", "help", "h"}):
+        own = {*path.parameters, *path.choices}
+        if taken := sorted(own & {*names, *flags, "case", "help", "h"}):
             raise PresetError(
                 f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option of the "
                 f"command line; rename it in the file"
             )
 
-        def callback(*, cases: tuple[str, ...], **argument: Any) -> None:
-            options = {name: argument.pop(name) for name in names}
+        def callback(*, cases: tuple[str, ...], **texts: Any) -> None:
+            options = {name: texts.pop(name) for name in names}
             if self.several is None:
-                one_case(self.name or "", path, cases)
-            request = cases_of(cmd_name, path, cases)
-            chosen = chosen_by(cmd_name, path, request, argument, self.faults(**options))
-            if not self.ranges:
-                refuse_axes(self.name or "", argument, chosen[0].axes)
-            if self.several is not None and asks_for_several(cases):
+                one_case(command, path, cases)
+            chosen = chosen_by(cmd_name, path, cases, texts, self.faults(**options))
+            if not self.ranges and chosen[0].axes:
+                raise ParameterError(
+                    *[
+                        f"{flag(name)} is given several values, {shown(texts[name])}, of which "
+                        f"{command} takes one; give one, or write 'optipath run' or "
+                        f"'optipath sweep'"
+                        for name in chosen[0].axes
+                    ]
+                )
+            if self.several is not None and _is_several(cases):
                 self.several(chosen, **options)
             else:
                 self.action(chosen[0], **options)
 
-        case = case_option(path, several=self.several is not None)
-        options = [_option(parameter) for parameter in parameters.values() if not parameter.bound]
-        if WAVELENGTH.name not in {*parameters, *path.choices, *names}:
-            options.append(_option(WAVELENGTH))
-        options += [_place(name, choice, path) for name, choice in path.choices.items()]
+        several = "; may be given several times, or all" if self.several and path.cases else ""
+        known = printable(", ".join(path.cases)) or "none in this preset"
+        case = click.Option(
+            ["--case", "cases"],
+            metavar="NAME",
+            multiple=True,
+            help=f"Named set of values: {known}{several}.",
+        )
+        parameters = [each for each in path.parameters.values() if not each.bound]
+        if WAVELENGTH.name not in own | names:
+            parameters.append(WAVELENGTH)
+        of_path = [
+            _option(one.name, _metavar(one), one.help, one.all_words, one.default_text())
+            for one in parameters
+        ]
+        of_path += [
+            _option(name, "WORD", one.help, one.behind, one.place(path.graph))
+            for name, one in path.choices.items()
+        ]
         return StrictCommand(
             cmd_name,
             callback=callback,
-            params=[*options, case, *self.options],
+            params=[*of_path, case, *self.options],
             help=printable(path.description),
             epilog=RANGES if self.ranges else None,
         )
@@ -150,12 +166,18 @@ class PresetGroup(WholeHelp):
         return printable(name or ""), command, rest
 
 
-def case_option(path: PathGraph, *, several: bool) -> click.Option:
-    """Return the option of the cases of a path."""
-    cases = printable(", ".join(path.cases))
-    more = f"; may be given several times, or {ALL}" if several and cases else ""
-    message = f"Named set of values: {cases or 'none in this preset'}{more}."
-    return click.Option(["--case", "cases"], metavar="NAME", multiple=True, help=message)
+def _metavar(parameter: Parameter) -> str:
+    if isinstance(parameter, Wavelength):  # In one of several kinds of units.
+        return "'516 nm'"
+    return (parameter.unit or "number").upper()
+
+
+def _option(
+    name: str, metavar: str, about: str, words: Collection[str], default: str
+) -> click.Option:
+    known = f"words: {', '.join(words)}" if words else ""
+    described = printable("; ".join(filter(None, [about, known, f"[{default}]"])))
+    return click.Option([flag(name), name], metavar=metavar, help=described)
 
 
 def no_preset() -> click.UsageError:
@@ -168,23 +190,6 @@ def no_preset() -> click.UsageError:
 def _refuse_none() -> None:
     if click.get_current_context().invoked_subcommand is None:
         raise no_preset()
-
-
-def _option(parameter: Parameter) -> click.Option:
-    words = f"words: {', '.join(parameter.all_words)}" if parameter.all_words else ""
-    hints = [parameter.help, words, f"[{parameter.default_text()}]"]
-    of_light = isinstance(parameter, Wavelength)  # In one of several kinds of units.
-    return click.Option(
-        [flag(parameter.name), parameter.name],
-        metavar="'516 nm'" if of_light else (parameter.unit or "number").upper(),
-        help=printable("; ".join(filter(None, hints))),
-    )
-
-
-def _place(name: str, choice: PlaceChoice, path: PathGraph) -> click.Option:
-    hints = [choice.help, f"words: {', '.join(choice.behind)}", f"[{choice.place(path.graph)}]"]
-    described = printable("; ".join(filter(None, hints)))
-    return click.Option([flag(name), name], metavar="WORD", help=described)
 
 
 T = TypeVar("T")
@@ -225,6 +230,10 @@ def chosen_by(
     of_options: Sequence[str] = (),
 ) -> list[Chosen]:
     """Return what the options give, for each case that is asked for."""
+    if ALL in cases:
+        if not path.cases:
+            raise ParameterError(f"preset '{preset}' has no cases; leave --case out")
+        cases = list(path.cases)
     faults = [*of_options]
     arguments = {name: text for name, text in texts.items() if text is not None}
     uses = Values(path.graph).uses if arguments else ()
@@ -233,7 +242,7 @@ def chosen_by(
     if not faults:
         for k in from_materials(path.graph, sound):
             sound.pop(k, None)
-        take_wavelength(preset, path, sound)
+        _take_wavelength(preset, path, sound)
     elif WAVELENGTH.name not in path.parameters:
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
     axes = {name: value for name, value in sound.items() if isinstance(value, AxisValues)}
@@ -242,8 +251,10 @@ def chosen_by(
     if faults or axes or len(results) > 1:
         with collecting(faults):
             of_each(results, Chosen.path)
-        faults += axis_faults(path, axes) if faults else []
     if faults:
+        for name in filter(path.parameters.__contains__, axes):
+            with collecting(faults):
+                path.bind(**{name: axes[name].given})
         raise ParameterError(*dict.fromkeys(faults))
     return results
 
@@ -253,39 +264,31 @@ def of_each(several: Sequence[Chosen], action: Callable[[Chosen], T]) -> dict[st
     results: dict[str, T] = {}
     having: dict[Fault, list[str]] = {}
     for chosen in several:
+        case = chosen.case or ""
         try:
-            results[chosen.case or ""] = action(chosen)
+            results[case] = action(chosen)
         except OptipathError as error:
             for fault in error.faults:
-                having.setdefault(fault, []).append(chosen.case or "")
+                having.setdefault(fault, []).append(case)
     if having:
-        faults = [
-            fault
-            if len(of) == len(several)
-            else fault.under(f"case{'s' * (len(of) > 1)} {listed(of)}")
-            for fault, of in having.items()
-        ]
-        raise ParameterError(*faults)
+        raise ParameterError(
+            *[
+                fault.under(
+                    "" if len(of) == len(several) else f"case{'s' * (len(of) > 1)} {listed(of)}"
+                )
+                for fault, of in having.items()
+            ]
+        )
     return results
 
 
-def asks_for_several(cases: Sequence[str]) -> bool:
-    """Tell whether several cases are asked for, by their names or by ``all``."""
+def _is_several(cases: Sequence[str]) -> bool:
     return len({*cases}) > 1 or ALL in cases
-
-
-def cases_of(preset: str, path: PathGraph, cases: Sequence[str]) -> Sequence[str]:
-    """Return the names of cases, ``all`` replaced by those that there are."""
-    if ALL not in cases:
-        return cases
-    if not path.cases:
-        raise ParameterError(f"preset '{preset}' has no cases; leave --case out")
-    return list(path.cases)
 
 
 def one_case(command: str, path: PathGraph, cases: Sequence[str]) -> str | None:
     """Return the case that is asked for, of a command that can do with one."""
-    if asks_for_several(cases):
+    if _is_several(cases):
         raise ParameterError(f"{command} takes one case{there_are([*path.cases])}")
     return cases[0] if cases else None
 
@@ -313,9 +316,8 @@ def _value(
         if is_material(parameter, text, uses):
             other = extinction_with(uses, name)
             k = _value(path, other, arguments, uses, faults) if other in arguments else None
-            option = flag(other) if other else ""
             if isinstance(k, AxisValues):
-                faults.append(f"{option} takes one value beside {flag(name)} {text}; give one")
+                faults.append(f"{flag(other)} takes one value beside {flag(name)} {text}; give one")
             elif k is not None:
                 path.parameters[other].resolve(k)
             return None if faults else material_named(flag(name), text, k)
@@ -327,23 +329,21 @@ def _value(
     return None
 
 
-def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
+def _take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
     """Say where nothing depends on a wavelength; a single one is taken out of the values."""
     name = WAVELENGTH.name
     if name not in values or name in path.parameters:
         return
-    media = {argument: value for argument, value in values.items() if isinstance(value, Material)}
+    media = {each: value for each, value in values.items() if isinstance(value, Material)}
     try:
-        needed = name in path.bind(**media).parameters
+        if name in path.bind(**media).parameters:
+            return
     except OptipathError:
         return  # Which is told of the material.
-    if not needed:
-        argument = values[name]
-        several = isinstance(argument, AxisValues)
-        WAVELENGTH.resolve(argument.given if several else argument)
-        if several:
-            values[name] = IdleValues(*argument)
-        else:
-            del values[name]
-        message = "all is the same along it" if several else f"--{name} is not used"
-        say(f"optipath: nothing in '{preset}' depends on the wavelength; {message}", err=True)
+    if isinstance(several := values[name], AxisValues):
+        WAVELENGTH.resolve(several.given)
+        values[name], message = IdleValues(*several), "all is the same along it"
+    else:
+        WAVELENGTH.resolve(values.pop(name))
+        message = f"--{name} is not used"
+    say(f"optipath: nothing in '{preset}' depends on the wavelength; {message}", err=True)

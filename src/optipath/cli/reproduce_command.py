@@ -8,9 +8,9 @@ import click
 import numpy as np
 
 from optipath.cli import console
-from optipath.cli.arguments import SEED, THREADS, whole
+from optipath.cli.arguments import SEED, THREADS, number
 from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json, title
-from optipath.cli.options import StrictCommand
+from optipath.cli.options import StrictCommand, completed_by
 from optipath.cli.surface_output import measured
 from optipath.errors import SurfaceError
 from optipath.materials.quantities import plain
@@ -21,25 +21,17 @@ from optipath.surfaces.reproduction import experiment_names, load_experiment
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from rich.table import Table
-
     from optipath.surfaces.reproduction import Experiment, Reproduced
 
 
-def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
-    """Return the experiments whose names begin so, for shells."""
-    return [name for name in experiment_names() if name.startswith(incomplete)]
-
-
 NAMES = click.Argument(
-    ["names"], nargs=-1, required=False, metavar="[NAME]...", shell_complete=_names
+    ["names"], nargs=-1, metavar="[NAME]...", shell_complete=completed_by(experiment_names)
 )
 LISTED = click.Option(["--list", "listed"], is_flag=True, help="List the experiments, run none.")
 PHOTONS = click.Option(
     ["--photons"],
-    type=whole,
-    metavar="NUMBER",
-    help="How many photons are walked from each direction; by default as the experiment says.",
+    type=number,
+    help="Photons from each direction; by default as the experiment says.",
 )
 
 
@@ -54,36 +46,35 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
     if faults:
         raise SurfaceError(*faults)
     experiments = [one for one in loaded if one is not None]
-    if listed:
-        _list(experiments, as_json=as_json)
-        return
-    done: list[tuple[Experiment, list[Reproduced]]] = []
+    if listed and as_json:
+        say_json({one.name: one.description for one in experiments})
+    elif listed:
+        rows = [(one.name, f"{one.description} ({one.source})") for one in experiments]
+        PlainConsole().print(headed("experiment", "what it is", rows=rows, box=None))
+    else:
+        _run(experiments, as_json=as_json, **options)
+
+
+def _run(experiments: Sequence[Experiment], *, as_json: bool, **options: Any) -> None:
+    """Do experiments; print each at once, or all in one JSON object, also where Ctrl-C comes."""
+    done: list[dict[str, Any]] = []
+    interrupted = True
     try:
-        for experiment in experiments:
+        for number, experiment in enumerate(experiments):
             results: list[Reproduced] = []
-            done.append((experiment, results))
             try:
                 with console.photon_bar(experiment.name) as progress:
                     for one in reproduction.reproduce(experiment, progress=progress, **options):
                         results.append(one)  # noqa: PERF402 - each stays where Ctrl-C comes
             finally:
+                if results:
+                    done.append(reproduced_as_json(experiment, results))
                 if results and not as_json:
-                    print_reproduced(experiment, results, first=len(done) == 1)
+                    _print(experiment, results, first=number == 0)
+        interrupted = False
     finally:
-        if as_json and done and done[0][1]:
-            whole = len(done) == len(experiments) and all(
-                len(result) == len(experiment.measurements) for experiment, result in done
-            )
-            several = [reproduced_as_json(*one) for one in done if one[1]]
-            say_json({"experiments": several, "interrupted": not whole})
-
-
-def _list(experiments: list[Experiment], *, as_json: bool) -> None:
-    if as_json:
-        say_json({one.name: one.description for one in experiments})
-        return
-    rows = [(one.name, f"{one.description} ({one.source})") for one in experiments]
-    PlainConsole().print(headed("experiment", "what it is", rows=rows, box=None))
+        if as_json and done:
+            say_json({"experiments": done, "interrupted": interrupted})
 
 
 reproduce = click.command(
@@ -95,22 +86,24 @@ _COLUMNS = "measured", "incidence", "published", "computed", "agrees", "pixel"
 _AGREES = {None: "", True: "yes", False: "no"}
 
 
-def print_reproduced(
-    experiment: Experiment, results: Sequence[Reproduced], *, first: bool = True
-) -> None:
+def _print(experiment: Experiment, results: Sequence[Reproduced], *, first: bool) -> None:
     """Print what is published of a sample, and what has been measured."""
     page = PlainConsole()
     if not first:
         page.print()
     page.print(title(experiment.name, experiment.description))
-    photons = f"{results[0].photons:,} photons a direction" if results else "nothing measured"
-    page.print(cell(f"{experiment.source}; {photons}"))
-    for text in dict.fromkeys(one.measurement.text for one in results):
+    page.print(cell(f"{experiment.source}; {results[0].photons:,} photons a direction"))
+    tables: dict[str, dict[str, list[Reproduced]]] = {}
+    for one in results:
+        tables.setdefault(one.measurement.text, {}).setdefault(one.found.mask, []).append(one)
+    for text, by_mask in tables.items():
         page.print()
         page.print(cell(f'"{text}"'))
-        several = [one for one in results if one.measurement.text == text]
-        for mask in dict.fromkeys(one.found.mask for one in several):
-            page.print(_table([one for one in several if one.found.mask == mask]))
+        for mask, several in by_mask.items():
+            # Columns without any entry tell nothing.
+            columns = zip(_COLUMNS, *map(_row, several), strict=True)
+            heads, *rows = zip(*[one for one in columns if any(one[1:])], strict=True)
+            page.print(headed(*heads, rows=rows, box=None))
             if mask:
                 page.print(cell(f"of {mask}"))
     page.print()
@@ -118,27 +111,16 @@ def print_reproduced(
         page.print(cell(f"{measure}: {reproduction.MEASURES[measure].told}"))
 
 
-def _table(several: Sequence[Reproduced]) -> Table:
-    rows = [[*_row(one)] for one in several]
-    # Columns without any entry tell nothing.
-    stored = [at for at in range(len(_COLUMNS)) if any(row[at] for row in rows)]
-    shown = [[row[at] for at in stored] for row in rows]
-    return headed(*[_COLUMNS[at] for at in stored], rows=shown, box=None)
-
-
 def _row(one: Reproduced) -> Iterator[str]:
-    request = one.measurement
-    mesh = f", {request.walks.cells} cells" if request.walks.cells else ""
+    request, found = one.measurement, one.found
     yield request.measure
-    yield f"{request.walks.incidence}{mesh}"
-    yield (
-        ""
-        if request.published is None
-        else " to ".join(dict.fromkeys(f"{number:g}" for number in request.published))
+    yield request.walks.incidence + (
+        f", {request.walks.cells} cells" if request.walks.cells else ""
     )
-    yield "none" if np.isnan(one.found.value) else measured(one.found.value, one.found.error)
+    yield " to ".join(dict.fromkeys(f"{number:g}" for number in request.published or ()))
+    yield "none" if np.isnan(found.value) else measured(found.value, found.error)
     yield _AGREES[one.agrees]
-    yield one.found.pixel
+    yield found.pixel
 
 
 def reproduced_as_json(experiment: Experiment, results: Sequence[Reproduced]) -> dict[str, Any]:
@@ -152,20 +134,20 @@ def reproduced_as_json(experiment: Experiment, results: Sequence[Reproduced]) ->
 
 
 def _as_json(one: Reproduced) -> dict[str, Any]:
-    request = one.measurement
+    request, walks, found = one.measurement, one.measurement.walks, one.found
     return {
         "measure": request.measure,
         "text": request.text,
-        "incidence": request.walks.incidence,
-        "wavelengths": [*request.walks.wavelengths],
-        "cells": request.walks.cells,
+        "incidence": walks.incidence,
+        "wavelengths": [*walks.wavelengths],
+        "cells": walks.cells,
         "stokes": [*request.stokes],
         "published": None if request.published is None else [*request.published],
         "within": request.within,
-        "value": plain(np.asarray(one.found.value)),
-        "standard_error": plain(np.asarray(one.found.error)),
+        "value": plain(np.asarray(found.value)),
+        "standard_error": plain(np.asarray(found.error)),
         "agrees": one.agrees,
-        "mask": one.found.mask,
-        "pixel": one.found.pixel,
+        "mask": found.mask,
+        "pixel": found.pixel,
         "photons": one.photons,
     }

@@ -1,4 +1,4 @@
-"""``optipath show``: what a preset is made of."""
+"""``optipath presets`` and ``optipath show``: what presets there are, what one is made of."""
 
 from __future__ import annotations
 
@@ -6,38 +6,40 @@ from typing import TYPE_CHECKING
 
 import click
 
-from optipath.cli.arguments import NewFile, check_place, write
-from optipath.cli.console import PlainConsole, cell, headed, wrapped
+from optipath.cli.arguments import NEW_FILE, check_place, write
+from optipath.cli.console import JSON, PlainConsole, cell, headed, say_descriptions, wrapped
 from optipath.cli.options import StrictCommand
 from optipath.cli.path_picture import headings, parameter_rows, path_picture
 from optipath.cli.preset_command import no_preset, one_case
-from optipath.errors import shown
 from optipath.paths.drawing import draw
-from optipath.paths.files.presets import load_preset, preset_of_case
+from optipath.paths.files.presets import load_preset, preset_descriptions, preset_of_case
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from optipath.paths.path_graph import PathGraph
+
+@click.command(cls=StrictCommand, params=[JSON])
+def presets(*, as_json: bool) -> None:
+    """List the presets."""
+    say_descriptions("preset", preset_descriptions(), as_json=as_json)
 
 
 CASE = click.Option(["--case", "cases"], metavar="NAME", multiple=True, help="Named set of values.")
 SVG = click.Option(
-    ["--svg"], type=NewFile(), help="Draw the graph into this file as well, which ends in .svg."
+    ["--svg"], type=NEW_FILE, help="Draw the graph into this file as well, which ends in .svg."
 )
 
 
-def _show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
+PRESET = click.Argument(["preset"], required=False, metavar="PRESET")
+
+
+@click.command(cls=StrictCommand, params=[PRESET, CASE, SVG])
+def show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
     """Show the parameters, elements and links of a preset, or of a TOML file."""
     if preset is None:
         raise no_preset()
     if svg is not None and svg.suffix.lower() != ".svg":
-        begun = svg.with_suffix("")
-        example = begun if begun.suffix == ".svg" else svg.with_suffix(".svg")
-        raise click.UsageError(
-            f"--svg draws SVG, and '{svg}' ends otherwise; name a file such as "
-            f"{shown(str(example))}"
-        )
+        raise click.UsageError(f"--svg draws SVG, and '{svg}' ends otherwise; add the ending .svg")
     if svg is not None:
         check_place(svg)
     path = load_preset(preset)
@@ -45,14 +47,7 @@ def _show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
     path = preset_of_case(path, preset, case)
     if svg is not None:
         write(svg, path_picture(path, preset, case).encode())
-    _print(PlainConsole(), path, case)
-
-
-PRESET = click.Argument(["preset"], required=False, metavar="PRESET")
-show = click.command("show", cls=StrictCommand, params=[PRESET, CASE, SVG])(_show)
-
-
-def _print(console: PlainConsole, path: PathGraph, case: str | None) -> None:
+    console = PlainConsole()
     console.print(cell(path.description, style="bold"), end="\n\n")
     if path.parameters or path.choices:
         console.print(headed(*headings(case), rows=parameter_rows(path), box=None))

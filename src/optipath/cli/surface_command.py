@@ -11,9 +11,9 @@ import click
 import numpy as np
 
 from optipath.cli import console
-from optipath.cli.arguments import SEED, THREADS, NewFile, axis_argument, check_place, whole
+from optipath.cli.arguments import NEW_FILE, SEED, THREADS, axis_argument, check_place, number
 from optipath.cli.console import JSON, say, say_descriptions, say_json
-from optipath.cli.options import StrictCommand, given_options
+from optipath.cli.options import StrictCommand, completed_by, given_options
 from optipath.errors import SurfaceError, listed, shown
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.paths.files.schema import Faults
@@ -32,12 +32,12 @@ if TYPE_CHECKING:
     from optipath.surfaces.sample import Sample
 
 
-def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
-    """Return the samples whose names begin so, and the command in their place, for shells."""
-    return [name for name in (*sample_names(), "reproduce") if name.startswith(incomplete)]
-
-
-SAMPLE = click.Argument(["sample"], required=False, metavar="[SAMPLE]", shell_complete=_names)
+SAMPLE = click.Argument(
+    ["sample"],
+    required=False,
+    metavar="[SAMPLE]",
+    shell_complete=completed_by(lambda: [*sample_names(), "reproduce"]),
+)
 INCIDENCE = click.Option(
     ["--incidence", "incidences"],
     metavar="DEG",
@@ -46,14 +46,13 @@ INCIDENCE = click.Option(
 )
 PHOTONS = click.Option(
     ["--photons"],
-    type=whole,
-    metavar="NUMBER",
+    type=number,
     help="How many photons are walked, such as 1e7; 1e6 by default. With --tolerance, at most.",
 )
 TOLERANCE = click.Option(
     ["--tolerance"],
     type=float,
-    help="Walk until the standard error of what is reflected is no larger, such as 0.002.",
+    help="The largest standard error of what is reflected, such as 0.002.",
 )
 DECIDE = click.Option(
     ["--decide"],
@@ -67,36 +66,21 @@ WAVELENGTHS = click.Option(
     help="Where an index depends on it; several by '400 nm:700 nm:4' on an opaque base.",
 )
 AZIMUTH = click.Option(
-    ["--azimuth"],
-    default="0",
-    metavar="DEG",
-    help="Towards which side the light goes, from x towards y; of anisotropic samples.",
+    ["--azimuth"], default="0", metavar="DEG", help="Azimuth of the light, from x towards y."
 )
 STOKES = click.Option(
-    ["--stokes"],
-    default="1,0,0,0",
-    metavar="S0,S1,S2,S3",
-    help="The light; the x of its frame is horizontal.",
+    ["--stokes"], default="1,0,0,0", metavar="S0,S1,S2,S3", help="The light; its x is horizontal."
 )
 EVENTS = click.Option(
-    ["--most-events"],
-    type=whole,
-    metavar="NUMBER",
-    default=1000,
-    help="After how many events a photon is given up.",
+    ["--most-events"], type=number, default=1000, help="After how many events a photon is given up."
 )
 SURFACES = click.Option(
-    ["--surfaces"],
-    type=whole,
-    metavar="NUMBER",
-    help="How many surfaces take turns, in place of the sample's.",
+    ["--surfaces"], type=number, help="How many surfaces take turns, in place of the sample's."
 )
 CELLS = click.Option(
     ["--cells"], metavar="N|N,N", help="Cells of random surfaces along x and y, ditto."
 )
-SAMPLE_SEED = click.Option(
-    ["--sample-seed"], type=whole, metavar="NUMBER", help="Of random surfaces, ditto."
-)
+SAMPLE_SEED = click.Option(["--sample-seed"], type=number, help="Of random surfaces, ditto.")
 
 MAP = click.Option(
     ["--map", "quantity"],
@@ -110,7 +94,7 @@ SIDE = click.Option(
     help="Of --map and --decide: above the sample, or below.",
 )
 OUT = click.Option(
-    ["--out"], type=NewFile(), help="Of --map: the file; its ending is .png, .svg or .pdf."
+    ["--out"], type=NEW_FILE, help="Of --map: the file; its ending is .png, .svg or .pdf."
 )
 
 WALKING = (INCIDENCE, PHOTONS, TOLERANCE, WAVELENGTHS, AZIMUTH, STOKES, SEED, EVENTS, THREADS)
@@ -123,41 +107,37 @@ _MOST = 1000
 _INCIDENCE, _AZIMUTH = (Parameter(name, unit="deg") for name in ("incidence", "azimuth"))
 
 
-def _values(option: str, text: str, parameter: Parameter, unit: str = "") -> AxisValues:
+def _values(parameter: Parameter, texts: Sequence[str], unit: str = "") -> list[AxisValues]:
     """Return the values that an option gives, without an axis where it is one."""
-    several = axis_argument(parameter, text, ())
-    if several is None:
-        return read_entries([text], parameter, unit).reshaped(())
-    _refuse_many(option, len(several.given))
-    return several
-
-
-def _refuse_many(option: str, count: int) -> None:
-    if count > _MOST:
+    results = [
+        axis_argument(parameter, text, ()) or read_entries([text], parameter, unit).reshaped(())
+        for text in texts
+    ]
+    if (count := sum(one.given.size for one in results)) > _MOST:
         raise SurfaceError(
-            f"{option} gives {count:,} values, of which each has tables of its own; give "
+            f"--{parameter.name} gives {count:,} values, of which each has tables of its own; give "
             f"{_MOST:,} at most"
         )
+    return results
 
 
 def _incidences_of(texts: Sequence[str]) -> list[AxisValues]:
     """Return the angles of incidence that options give, each alone."""
     if not texts:
         raise SurfaceError("--incidence is missing; give the angle of incidence: --incidence 60")
-    several = [_values("--incidence", text, _INCIDENCE, "deg") for text in texts]
-    _refuse_many("--incidence", sum([one.given.size for one in several]))
     return [
         AxisValues(one.shown[at], one.unit, one.given[at])
-        for one in several
+        for one in _values(_INCIDENCE, texts, "deg")
         for at in np.ndindex(one.given.shape)
     ]
 
 
 def _azimuth_of(text: str) -> float:
     """Return an azimuth in radians."""
-    if (result := _values("--azimuth", text, _AZIMUTH, "deg").given).size > 1:
+    (result,) = _values(_AZIMUTH, [text], "deg")
+    if result.given.size > 1:
         raise SurfaceError(f"--azimuth takes one angle, and {shown(text)} is several; give one")
-    return float(result.item())
+    return float(result.given.item())
 
 
 def _numbers_of(option: str, text: str, usual: str, counts: tuple[int, ...]) -> tuple[Any, ...]:
@@ -190,7 +170,8 @@ def _walks(
 
     faults = Faults()
     angles = faults.attempt("", _incidences_of, incidences) or _incidences_of(["0"])
-    lights = wavelength and faults.attempt("", _values, "--wavelength", wavelength, WAVELENGTH)
+    texts = [wavelength] if wavelength else []
+    lights = next(iter(faults.attempt("", _values, WAVELENGTH, texts) or []), None)
     state = faults.attempt("", _numbers_of, "--stokes", stokes, "1,0,0,0", (4,))
     options |= {
         "azimuth": faults.attempt("", _azimuth_of, azimuth) or 0.0,
@@ -208,7 +189,7 @@ def _walks(
     if faults:
         raise SurfaceError(*dict.fromkeys(faults))
     return [
-        Walk(angle, lights or None, *run, options["tolerance"])
+        Walk(angle, lights, *run, options["tolerance"])
         for angle, run in zip(angles, filter(None, runs), strict=True)
     ]
 
@@ -239,13 +220,15 @@ def _surface(
     elif out is not None or (side != "reflected" and not decide):
         message = "--out is" if out is not None else "--side is of --decide, and"
         raise click.UsageError(f"{message} of a map; say of what, --map S0")
-    elif decide:
-        _decide(sample, side, as_json=as_json, **options)
     else:
-        walks = _walks(load_sample(sample), **options)
-        from optipath.cli.surface_output import walked  # noqa: PLC0415 - slow to import
+        tolerance = options["tolerance"]
+        walks = _walks(load_sample(sample), **options | ({"tolerance": None} if decide else {}))
+        if decide and walks[0].run.beam.states[0] != UNPOLARISED:
+            raise SurfaceError("--decide is of unpolarised light; leave --stokes out")
+        from optipath.cli.surface_output import decided, walked  # noqa: PLC0415 - slow to import
 
-        _tell(sample, walks, walked, as_json=as_json)
+        decision = partial(decided, 0.02 if tolerance is None else tolerance, side)
+        _tell(sample, walks, decision if decide else walked, as_json=as_json)
 
 
 class _SurfaceCommand(StrictCommand):
@@ -270,12 +253,11 @@ surface = click.command(
 
 
 def _list_samples(*, as_json: bool) -> None:
-    arguments = [option for option in given_options() if option != "--json"]
     descriptions = sample_descriptions()
-    if arguments:
+    if given := [option for option in given_options() if option != "--json"]:
         names = ", ".join(descriptions)
         raise click.UsageError(
-            f"SAMPLE is missing, beside {listed(arguments)}; give a file or one of: {names}"
+            f"SAMPLE is missing, beside {listed(given)}; give a file or one of: {names}"
         )
     say_descriptions("sample", descriptions, as_json=as_json)
 
@@ -306,19 +288,6 @@ def _tell(
             several = [outcome.as_json() for outcome in results]
             one = several[0] if len(walks) == 1 else {"directions": several}
             say_json({"sample": sample, **one})
-
-
-def _decide(
-    sample: str, side: str, *, as_json: bool, tolerance: float | None, **options: Any
-) -> None:
-    """Decide for each angle of incidence which model suffices."""
-    walks = _walks(load_sample(sample), **options, tolerance=None)
-    if walks[0].run.beam.states[0] != UNPOLARISED:
-        raise SurfaceError("--decide is of unpolarised light; leave --stokes out")
-    wanted = 0.02 if tolerance is None else tolerance
-    from optipath.cli.surface_output import decided  # noqa: PLC0415 - slow to import
-
-    _tell(sample, walks, partial(decided, wanted, side), as_json=as_json)
 
 
 def _draw_map(

@@ -83,21 +83,18 @@ class EnergyOutcome:
 
     def print(self) -> None:
         """Print a few tables for each wavelength."""
-        console = PlainConsole()
-        energy, wavelengths = self.energy, self.walk.wavelengths
-        models = energy, energy.scalar, energy.difference
-        console.print(cell(self.walk.direction, "bold"))
-        console.print(cell(self._walked()))
-        for place in [()] if wavelengths is None else [*np.ndindex(wavelengths.given.shape)]:
+        console, energy, wavelengths = PlainConsole(), self.energy, self.walk.wavelengths
+        parts: list[Any] = []
+        for place in np.ndindex(() if wavelengths is None else wavelengths.given.shape):
             if wavelengths is not None:
                 number = f"{wavelengths.shown[place]:.{_DIGITS}g}"
-                console.print()
-                console.print(cell(f"wavelength {number} {wavelengths.unit}", "bold"))
-            for table in _tables(models, place):
-                console.print()
-                console.print(table)
-        console.print()
-        console.print(cell("in brackets: the standard error of the last two digits"))
+                parts.append(cell(f"wavelength {number} {wavelengths.unit}", "bold"))
+            parts += _tables((energy, energy.scalar, energy.difference), place)
+        console.print(cell(self.walk.direction, "bold"))
+        console.print(cell(self._walked()))
+        for part in (*parts, cell("in brackets: the standard error of the last two digits")):
+            console.print()
+            console.print(part)
 
     def _walked(self) -> str:
         """Say how many photons there were, and what has become of those that are lost."""
@@ -161,18 +158,12 @@ def _tables(models: Sequence[EnergyShares], place: tuple[int, ...]) -> Iterator[
         # Events stand before wavelengths.
         each = [getattr(model, name)[:, *place] for model in models]
         lit, most = np.flatnonzero(np.any(each, axis=0)), len(each[0])
-        if lit.size:
-            counts = range(1, int(lit[-1]) + 2)
-            labels = [f"{most} or more events" if n == most else _counted(n) for n in counts]
-            places = [(count - 1, *place) for count in counts]
-            rows = [_row(models, name, one) for one in places]
-            yield _table(f"{name} after", labels, rows)
-    yield _table("in all", _SUMS, [_row(models, name, place) for name in _SUMS])
-
-
-def _table(corner: str, labels: Sequence[str], rows: Sequence[Sequence[str]]) -> Table:
-    labelled = [[label, *row] for label, row in zip(labels, rows, strict=True)]
-    return headed(corner, *_MODELS, rows=labelled, right=1, box=None)
+        labels = [_counted(count) for count in range(1, most)] + [f"{most} or more events"]
+        rows = [[labels[n], *_row(models, name, (n, *place))] for n in range(max([*lit, -1]) + 1)]
+        if rows:
+            yield headed(f"{name} after", *_MODELS, rows=rows, right=1, box=None)
+    rows = [[name, *_row(models, name, place)] for name in _SUMS]
+    yield headed("in all", *_MODELS, rows=rows, right=1, box=None)
 
 
 def _row(models: Sequence[EnergyShares], name: str, place: tuple[int, ...]) -> list[str]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-from optipath.cli.arguments import array_faults, check_place, write
+from optipath.cli.arguments import check_place, write
 from optipath.cli.console import DIGITS, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.options import flag, parameter_name
 from optipath.cli.outcome import (
@@ -42,62 +42,51 @@ if TYPE_CHECKING:
     from optipath.sweeps.grid import SweepGrid
 
 
-ZIP = click.Option(
-    ["--zip"],
-    metavar="NAME,NAME",
-    multiple=True,
-    help="Parameters whose values vary together, along one axis. May be repeated.",
+SWEEPING = (
+    click.Option(
+        ["--zip"],
+        metavar="NAME,NAME",
+        multiple=True,
+        help="Parameters whose values vary together, along one axis. May be repeated.",
+    ),
+    click.Option(
+        ["--coords"],
+        metavar="FILE.csv",
+        help="Axes besides: a column for each parameter, its unit in the heading.",
+    ),
+    click.Option(
+        ["--chunks"], metavar="N|auto", help="How many values along each axis are computed at once."
+    ),
+    click.Option(
+        ["--scheduler"],
+        metavar="WORD|ADDRESS",
+        help="What computes .zarr and .nc: threads, processes, synchronous, or tcp://... of a "
+        "cluster.",
+    ),
+    click.Option(["--out"], metavar="FILE", help="Write all into this file (csv, json, nc, zarr)."),
 )
-COORDS = click.Option(
-    ["--coords"],
-    metavar="FILE.csv",
-    help="Axes besides: a column for each parameter, its unit in the heading.",
-)
-CHUNKS = click.Option(
-    ["--chunks"],
-    metavar="N|auto",
-    help="How many values along each axis are computed at once for .zarr and .nc.",
-)
-SCHEDULER = click.Option(
-    ["--scheduler"],
-    metavar="WORD|ADDRESS",
-    help="What computes .zarr and .nc: threads, processes, synchronous, or tcp://... of a cluster.",
-)
-OUT = click.Option(
-    ["--out"],
-    metavar="FILE",
-    help="Write all into this file; its ending says in which form (csv, json, nc, zarr).",
-)
-SWEEPING = (ZIP, COORDS, CHUNKS, SCHEDULER, OUT)
 
 _TEXTS, _BLOCKS = (".csv", ".json"), (".nc", ".zarr")
 """Endings of what the command writes itself, and of what is computed and written by blocks."""
 
 
-def zip_groups(
-    zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
-) -> list[tuple[str, ...]]:
+def zip_groups(groups: Sequence[str]) -> list[tuple[str, ...]]:
     """Return the parameters of each group that varies together, by what was written.
 
     >>> zip_groups(["sky-angle, --theta"])
     [('sky_angle', 'theta')]
     """
-    return [tuple(filter(None, map(parameter_name, names.split(",")))) for names in zip]
+    return [tuple(filter(None, map(parameter_name, names.split(",")))) for names in groups]
 
 
-def _faults(
-    *,
-    out: str | None,
-    zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
-    **options: Any,
-) -> list[str]:
+def _faults(*, out: str | None, **options: Any) -> list[str]:
     """Return what is wrong with the options of a sweep, a sentence each."""
     faults = [] if out is None else out_faults(out)
     if options["as_json"] and out is not None:
         faults.append("--json prints what --out writes into a file; give one of them")
     faults += [
         f"--zip {shown(names)} names fewer than two parameters; write --zip NAME,NAME"
-        for names in zip
+        for names in options["zip"]
         if len(zip_groups([names])[0]) < 2
     ]
     idle = [f"--{name}" for name in ("chunks", "scheduler") if options[name]]
@@ -141,11 +130,8 @@ def _sweep(
     if twice := [name for name in other if name in chosen.values]:
         flags = listed([flag(name) for name in twice])
         raise ParameterError(f"{flags} and --coords both give values; leave one of them out")
-    path = chosen.path(reads, other)
-    composer = Composer(**options)
+    path, composer = chosen.path(reads, other), Composer(**options)
     plan = path.plan_by(composer)
-    if (chosen.axes or other) and (faults := array_faults(plan.inputs, [*chosen.axes, *other])):
-        raise ParameterError(*faults)
     together = zip_groups(zip)
     grid = grid_of(plan.inputs, chosen.axes, together, coords)
     if not grid.axes:
@@ -154,8 +140,8 @@ def _sweep(
             f"a sweep has an axis at least; give {' or '.join([*ways, '--coords FILE.csv'])}, or "
             f"write 'optipath run' for single values"
         )
-    file = Path(out or "")
-    if out and file.suffix in _BLOCKS:
+    form = Path(out or "").suffix
+    if out and form in _BLOCKS:
         with block_bar(out) as progress:
             path.sweep(
                 zip=together,
@@ -167,24 +153,24 @@ def _sweep(
                 composer=composer,
                 **chosen.axes,
             )
-    elif file.suffix == ".csv":
-        write_csv(file, plan, grid)
+    elif out and form == ".csv":
+        _write_csv(Path(out), plan, grid)
     else:
         outcome = outcome_of(chosen, path, plan, grid)
         if out:
-            write(file, json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
+            write(Path(out), json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
         elif as_json:
             say_json(outcome_as_json(outcome))
         else:
             print_sweep(outcome, digits)
     if out:
-        say(f"wrote {out}: {sizes_text(grid)}")
+        say(f"wrote {out}: {_sizes_text(grid)}")
 
 
 sweep = PresetGroup("sweep", _sweep, (*COMPOSING, DIGITS, *SWEEPING), ranges=True, faults=_faults)
 
 
-def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
+def _write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
     """Write a line for each point of a grid, a part of them after the other."""
     parts = csv_parts(plan, grid)
     heads = next(parts)  # Before there is a file: names may clash.
@@ -202,25 +188,24 @@ _WIDEST = 1000
 
 def print_sweep(outcome: Outcome, digits: int) -> None:
     """Print the light of a sweep, as far as it fits; the rest is for a file."""
-    console, numbers = PlainConsole(), Numbers(digits)
+    console, numbers, grid = PlainConsole(), Numbers(digits), outcome.grid
     print_arguments(console, outcome, numbers)
-    grid, lights = outcome.grid, outcome.lights.items()
-    is_line = len(grid.shape) == 1
+    is_line, is_short = len(grid.shape) == 1, grid.points <= MOST_ROWS
     is_plane = len(grid.axes) == len(grid.shape) == 2
     if is_plane and grid.shape[0] <= MOST_ROWS and grid.shape[1] <= _MOST_COLUMNS:
-        tables = [plane_table(f"S0 at {name}", light, grid, numbers) for name, light in lights]
-    elif is_line or grid.points <= MOST_ROWS:
-        tables = [_point_table(console, outcome, name, numbers) for name in outcome.lights]
+        for name, light in outcome.lights.items():
+            console.print(plane_table(f"S0 at {name}", light, grid, numbers))
+    elif is_line or is_short:
+        for name in outcome.lights:
+            console.print(_point_table(console, outcome, name, numbers))
     else:
-        tables = [_summary(outcome, numbers)]
-    for table in tables:
-        console.print(table)
+        console.print(_summary(outcome, numbers))
     console.print(cell(ran([outcome])))
-    if not is_line or grid.points > MOST_ROWS:
+    if not (is_line and is_short):
         console.print(cell("for all numbers add --out FILE (csv, json, nc, zarr), or --json"))
 
 
-def sizes_text(grid: SweepGrid) -> str:
+def _sizes_text(grid: SweepGrid) -> str:
     """Return how many points a grid has, and how many along each dimension."""
     sizes = ", ".join(f"{name} {size:,}" for name, size in grid.sizes.items())
     return f"{grid.points:,} points ({sizes})"
@@ -228,24 +213,23 @@ def sizes_text(grid: SweepGrid) -> str:
 
 def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
     """Return a row for each point, with as many quantities of light as the terminal is wide."""
-    arguments = f"light at {name}", outcome.lights[name], outcome.grid, numbers
     for count in range(len(PRINTED), 0, -1):
-        table = point_table(*arguments, PRINTED[:count])
-        if console.measure(table, options=console.options.update(width=_WIDEST)).maximum <= (
-            console.width
-        ):
+        light, told = outcome.lights[name], PRINTED[:count]
+        table = point_table(f"light at {name}", light, outcome.grid, numbers, told)
+        needed = console.measure(table, options=console.options.update(width=_WIDEST)).maximum
+        if needed <= console.width:
             return table
-    return point_table(*arguments)
+    return point_table(f"light at {name}", outcome.lights[name], outcome.grid, numbers)
 
 
 def _summary(outcome: Outcome, numbers: Numbers) -> Table:
     """Return how many points there are, and between which values S0 lies."""
-    about = cell(sizes_text(outcome.grid))
     rows = []
     for name, light in outcome.lights.items():
         known = light.intensity[np.isfinite(light.intensity)]
-        ends = [float(find(known)) if known.size else np.nan for find in (np.min, np.max)]
-        rows.append([f"light at {name}", *map(numbers.state, ends)])
+        ends = (known.min(), known.max()) if known.size else (np.nan, np.nan)
+        rows.append([f"light at {name}", *(numbers.state(float(end)) for end in ends)])
+    about = cell(_sizes_text(outcome.grid))
     return headed("", "least S0", "largest S0", rows=rows, box=None, title=about, right=1)
 
 
