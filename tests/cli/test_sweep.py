@@ -154,11 +154,11 @@ def test_all_that_is_wrong_with_options_values_and_cells_is_told(refused, run, t
         assert fault == f"{several}; give one, and write a command for each"
     for text in ("nan", "10, nan, 30"):
         err = run("sweep npgr026 --delta", text)[2]
-        assert "knows no word 'nan'; give an angle such as '45 deg'" in err
+        assert "cannot be 'nan', which is not finite; give an angle such as '45 deg'" in err
         assert "word" not in err
     (tmp_path / "a.csv").write_text("delta (deg)\n10\nnan\n30\n", "utf-8")
     err = run("sweep npgr026 --delta @a.csv")[2]
-    assert err.startswith("optipath: a.csv: parameter 'delta' knows no word 'nan'")
+    assert err.startswith("optipath: a.csv: parameter 'delta' cannot be 'nan'")
 
 
 def own(text):

@@ -325,7 +325,7 @@ def test_what_is_wrong_in_a_file_is_told_with_its_name_and_the_lines_of_cells(tm
         (fault,) = told_in(text)
         assert sentence in fault
     assert told_in("n1,delta (deg)\n1.5,20\nnan,120\n-1,130\n") == [
-        "line 3: parameter 'n1' knows no word 'nan'; give a number",
+        "line 3: parameter 'n1' cannot be 'nan', which is not finite; give a number",
         "line 4: parameter 'n1' is -1, outside its range; give 0 or more",
         "line 3: parameter 'delta' is 120 deg, outside its range; give 0 deg .. 90 deg",
         "line 4: parameter 'delta' is 130 deg, outside its range; give 0 deg .. 90 deg",

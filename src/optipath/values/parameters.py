@@ -589,6 +589,9 @@ def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = ""
     >>> unknown_word("t", "half", [])
     "parameter 't' knows no word 'half'; give a number"
     """
+    if word.lower() == "nan":
+        wanted = _number(dimension)
+        return f"parameter '{name}' cannot be '{word}', which is not finite; give {wanted}"
     return f"parameter '{name}' knows no word '{word}'{word_meant(word, known, dimension)}"
 
 
