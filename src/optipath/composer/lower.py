@@ -94,11 +94,8 @@ class _Lowering:
         for outlet in self.wiring.outlets:
             name, _, leaves = outlet.partition(".")
             ports[outlet] = name, leaves
-        return {
-            text: Reading(self.lights[port], self._frame_behind(*port))
-            for text, port in ports.items()
-            if port in self.lights
-        }
+        lit = {text: port for text, port in ports.items() if port in self.lights}
+        return {text: Reading(self.lights[p], self._frame_behind(*p)) for text, p in lit.items()}
 
     def add(self, stretch: Stretch) -> None:
         """Add the steps that make the light at the ports of a stretch."""
@@ -109,13 +106,10 @@ class _Lowering:
         for port in stretch.ports[len(outside) :]:
             self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
         if outside:
-            within = set(stretch.ports)
-            self.builder.close(
-                {
-                    self.lights[junction]: [*lights, *self._arriving(junction, within)]
-                    for junction, lights in outside.items()
-                }
-            )
+            within, sums = set(stretch.ports), dict[int, list[int]]()
+            for junction, lights in outside.items():
+                sums[self.lights[junction]] = [*lights, *self._arriving(junction, within)]
+            self.builder.close(sums)
 
     def _arriving(self, port: Port, within: set[Port] | None = None) -> list[int]:
         """Return the lights that add up at a port, those from ports within some alone."""

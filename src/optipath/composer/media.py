@@ -42,7 +42,7 @@ class Media:
     """The media and the angles at both ends of every way from boundary to boundary."""
 
     def __init__(self, wiring: Wiring) -> None:
-        self.elements = wiring.elements
+        self.elements: dict[str, Any] = {**wiring.elements}
         self.following = wiring.graph.graph.get(FOLLOWING, {})
         self.meetings = Meetings(wiring)
 
@@ -74,9 +74,8 @@ class Media:
             if meeting.sides in results:
                 continue
             (start, leaves), (end, enters) = meeting.leaves, meeting.enters
-            element: Any = self.elements[end]
-            before: Any = self.elements[start]
-            first, second = before.medium_at(leaves), element.medium_at(enters)
+            element = self.elements[end]
+            first, second = self.elements[start].medium_at(leaves), element.medium_at(enters)
             in_front, results[meeting.sides] = enters == "in", None
             absorbs = _absorptions(first, second, element)
             if absorbs or not are_same(first, second):
@@ -99,8 +98,7 @@ class Media:
         ways = []
         for meeting in self.meetings.in_layers:
             leaves, enters = meeting.leaves, meeting.enters
-            first: Any = self.elements[leaves[0]]
-            second: Any = self.elements[enters[0]]
+            first, second = self.elements[leaves[0]], self.elements[enters[0]]
             ends, turns = (".".join(leaves), ".".join(enters)), meeting.turns
             follows = self._follows(enters[0], "incidence")
             both_ways = meeting.sides in self.meetings.to_and_fro
@@ -158,10 +156,9 @@ class Media:
 
     def _measures_in_front(self, port: Port) -> bool:
         """Tell whether a boundary has its incidence in the medium in front."""
-        face: Any = self.elements[port[0]]
+        face = self.elements[port[0]]
         # A boundary in space has its angle by its points.
-        has_one = isinstance(self.elements[port[0]], BoundaryElement)
-        return has_one and face.measured[1] is face.outside
+        return isinstance(face, BoundaryElement) and face.measured[1] is face.outside
 
 
 def index_of(value: Any) -> Operand:
@@ -384,11 +381,9 @@ def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
         if not faults[name]:
             result.nodes[name]["element"] = taking.elements[name]
     messages = [fault for several in faults.values() for fault in several]
-    messages = messages or [
-        f"'{name}' takes over (FOLLOWS) what those before it take over; give it at one of them"
-        for name in names
-        if taking.elements[name].followed()
-    ]
+    if not messages:
+        takes = "takes over (FOLLOWS) what those before it take over; give it at one of them"
+        messages = [f"'{name}' {takes}" for name in names if taking.elements[name].followed()]
     return result, messages
 
 

@@ -72,11 +72,8 @@ class Values:
     @cached_property
     def parameter_uses(self) -> list[Use]:
         """The parameters where they stand; what follows from others is none of them."""
-        return [
-            use
-            for use in self.uses
-            if isinstance(use.value, Parameter) and not isinstance(use.value, CurveValue)
-        ]
+        uses = [use for use in self.uses if isinstance(use.value, Parameter)]
+        return [use for use in uses if not isinstance(use.value, CurveValue)]
 
     @cached_property
     def _placed(self) -> dict[str, Parameter]:
@@ -109,11 +106,9 @@ class Values:
     @cached_property
     def defaults(self) -> dict[str, Resolved]:
         """What parameters are by default: those with one number, and of elements that are there."""
-        results = {
-            name: p.resolve(p.default)
-            for name, p in self.parameters.items()
-            if not p.bound and p.default is not None and not is_traced(p.default)
-        }
+        usual = {name: p.default for name, p in self.parameters.items() if not p.bound}
+        known = {n: v for n, v in usual.items() if v is not None and not is_traced(v)}
+        results = {name: self.parameters[name].resolve(value) for name, value in known.items()}
         results = {name: r for name, r in results.items() if r.present.ndim == 0 and r.present}
         alone = [c for c in self._computed if c.follows(results) and not c.curve.takes_grid]
         return results | {c.name: c.computed(results) for c in alone}
@@ -126,11 +121,8 @@ class Values:
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
-        curves = [
-            use.value.depends_on[0]
-            for use in self.uses
-            if use.domain is SPECTRAL and isinstance(use.value, CurveValue)
-        ]
+        computed = [use for use in self.uses if isinstance(use.value, CurveValue)]
+        curves = [use.value.depends_on[0] for use in computed if use.domain is SPECTRAL]
         per_nanometre = dict.fromkeys(p.name for p in curves if isinstance(p, Parameter))
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},
@@ -174,12 +166,8 @@ class Values:
                 out_of.add(use.domain)
                 results += fault.faults
         sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
-        return [
-            *results,
-            *self._parameter_faults(),
-            *self._optional_faults(),
-            *broadcast_fault(sound),
-        ]
+        results += [*self._parameter_faults(), *self._optional_faults()]
+        return [*results, *broadcast_fault(sound)]
 
     def _parameter_faults(self) -> Iterator[str]:
         for name in self.graph.graph.get("choices", ()):

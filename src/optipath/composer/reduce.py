@@ -334,11 +334,9 @@ def cheaper_kernels(program: Program) -> tuple[Program, list[str]]:
         place = program.steps[item.light].evaluation
         return item._replace(operation=cheaper.get(place, item.operation))
 
-    notes = [
-        f"cheaper at '{step.label}': {cheaper[step.evaluation].kernel.name}"
-        for step in program.steps
-        if step.evaluation in cheaper
-    ]
+    steps = [step for step in program.steps if step.evaluation in cheaper]
+    pairs = [(step.label, cheaper[step.evaluation].kernel.name) for step in steps]
+    notes = [f"cheaper at '{label}': {name}" for label, name in pairs]
     return along_chains(program, lambda items: list(map(cheapest, items))), notes
 
 

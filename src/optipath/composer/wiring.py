@@ -101,11 +101,8 @@ class Wiring:
     @cached_property
     def ports(self) -> Ways:
         """The ways from port to port: links, and couplings inside of elements."""
-        ways: Ways = {
-            (name, port): []
-            for name, element in self.elements.items()
-            for port in (*element.inputs, *element.outputs)
-        }
+        every = [(name, (*e.inputs, *e.outputs)) for name, e in self.elements.items()]
+        ways: Ways = {(name, port): [] for name, ports in every for port in ports}
         for name, couplings in self.couplings.items():
             for coupling in couplings:
                 if coupling.enters is not None:
@@ -129,22 +126,14 @@ class Wiring:
     @cached_property
     def starts(self) -> list[Port]:
         """The ports where light begins."""
-        return [
-            (name, coupling.leaves)
-            for name, couplings in self.couplings.items()
-            for coupling in couplings
-            if coupling.enters is None
-        ]
+        pairs = [(name, way) for name, ways in self.couplings.items() for way in ways]
+        return [(name, way.leaves) for name, way in pairs if way.enters is None]
 
     @cached_property
     def ends(self) -> list[Port]:
         """The ports where light ends: in-ports of elements with no way out."""
-        return [
-            (name, port)
-            for name, element in self.elements.items()
-            if not element.outputs
-            for port in element.inputs
-        ]
+        ends = [(name, e.inputs) for name, e in self.elements.items() if not e.outputs]
+        return [(name, port) for name, ports in ends for port in ports]
 
     @cached_property
     def lit(self) -> set[Port]:
@@ -260,11 +249,8 @@ def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
 
 def among(ways: Ways, stored: set[Port]) -> Ways:
     """Return the ways between some ports alone."""
-    return {
-        port: [later for later in onwards if later in stored]
-        for port, onwards in ways.items()
-        if port in stored
-    }
+    some = [port for port in ways if port in stored]
+    return {port: [later for later in ways[port] if later in stored] for port in some}
 
 
 def _loop(ways: Ways, together: set[Port], before: Ways) -> Stretch:

@@ -71,14 +71,12 @@ def join(
             with collecting(faults, PathError):
                 ends.append(argument or _open_port(graph, out=out))
     names = _names(first, second)
-    faults += [
-        f"node '{name}' stands on both sides of >>; give one of them another name"
-        for name in names.values()
-        if name in first
+    shared = [("node", name) for name in names.values() if name in first]
+    shared += [
+        ("choice", name) for name in first.graph["choices"] if name in second.graph["choices"]
     ]
     faults += [
-        f"choice '{name}' stands on both sides of >>; use two names"
-        for name in sorted(first.graph["choices"].keys() & second.graph["choices"].keys())
+        f"{what} '{name}' stands on both sides of >>; use two names" for what, name in shared
     ]
     if faults:
         raise PathError(*faults)
@@ -134,12 +132,9 @@ def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
         return name, natural_port(element, name, out=out)
     wiring = Wiring(graph)
     used = wiring.links_from if out else wiring.links_to
-    unused = [
-        (name, port)
-        for name, element in elements.items()
-        for port in (element.outputs if out else element.inputs)
-        if (name, port) not in used
-    ]
+    ports = [(name, e.outputs if out else e.inputs) for name, e in elements.items()]
+    every = [(name, port) for name, each in ports for port in each]
+    unused = [port for port in every if port not in used]
     results = [port for port in unused if natural_of(elements[port[0]], out=out) == port[1]]
     if len(results) == 1:
         return results[0]
@@ -224,11 +219,9 @@ def are_alike(first: Any, second: Any) -> bool:
 def _give_azimuth_to_links(graph: nx.MultiDiGraph, link: Link) -> None:
     """Let the links that an element's azimuth turns say it, if it turns this one."""
     wiring, node = Wiring(graph), graph.nodes[link[1]]
-    links = [
-        one
-        for one in wiring.links_to[link[1], link[2][1]]
-        if graph.edges[one]["azimuth"] is None and not is_zero(azimuth_of(wiring, one))
-    ]
+    arriving = wiring.links_to[link[1], link[2][1]]
+    unsaid = [one for one in arriving if graph.edges[one]["azimuth"] is None]
+    links = [one for one in unsaid if not is_zero(azimuth_of(wiring, one))]
     if link in links:
         for one in links:
             graph.edges[one]["azimuth"] = azimuth_of(wiring, one)
@@ -442,11 +435,9 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
         raise PathError(f"{lacks}; take '{name}' out and add it anew")
     old, turn = graph.nodes[name]["element"], _own_turn(element)
     before = {link: graph.edges[link]["azimuth"] for link in graph.in_edges(name, keys=True)}
-    twice = {
-        link: azimuth
-        for link, azimuth in before.items()
-        if azimuth is not None and not is_zero(azimuth_at(element, link[2][1]))
-    }
+    said = {link: azimuth for link, azimuth in before.items() if azimuth is not None}
+    turned = [link for link in said if not is_zero(azimuth_at(element, link[2][1]))]
+    twice = {link: said[link] for link in turned}
     for link, azimuth in twice.items():
         if not are_alike(azimuth, turn):
             turns = f"turns '{name}' by {turn_text(azimuth)}, and the new one by {turn_text(turn)}"

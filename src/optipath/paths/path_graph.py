@@ -367,12 +367,11 @@ class PathGraph(Chainable):
 
         Parameters
         ----------
-        *unnamed
-            None.
-        **values : float, str, array_like, Material or curve
-            In radians and metres, or texts with units. A `Material` for the n of an index gives
-            its k as well. What depends on the wavelength, as `op.tabulated(...)` and a `Spectrum`
-            do, stands wherever the parameter stood, and leaves the path the parameter wavelength.
+        *unnamed, **values : float, str, array_like, Material or curve
+            By name, in radians and metres, or texts with units. A `Material` for the n of an index
+            gives its k as well. What depends on the wavelength, as `op.tabulated(...)` and a
+            `Spectrum` do, stands wherever the parameter stood, and leaves the path the parameter
+            wavelength.
 
         Returns
         -------
@@ -486,16 +485,14 @@ class PathGraph(Chainable):
 
         Parameters
         ----------
-        *unnamed
-            None.
         keep : {"ends", "all"}, optional
             With ``"all"``, the light at every end, on every link, such as
             ``"lamp.out -> eye.in"``, and at every outlet, such as ``"glass.transmitted"``, by
             name, each in the frame in which it leaves its element. A path with an open
             parameter called ``keep`` takes it for that; compose it by ``Composer(keep="all")``.
-        **parameters : float or array_like
-            The values of open parameters. Those that JAX traces cannot be refused: light is NaN
-            where they are outside their domain.
+        *unnamed, **parameters : float or array_like
+            By name, the values of open parameters. Those that JAX traces cannot be refused: light
+            is NaN where they are outside their domain.
 
         Returns
         -------
@@ -629,8 +626,6 @@ class PathGraph(Chainable):
 
         Parameters
         ----------
-        *unnamed
-            None.
         zip : sequence of str, or several, optional
             Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
             or a mapping of its name to them.
@@ -651,8 +646,8 @@ class PathGraph(Chainable):
             many.
         composer : Composer, optional
             How the path is composed.
-        **axes : array_like
-            The values of parameters, in radians and metres, texts with units, a range
+        *unnamed, **axes : array_like
+            The values of parameters by name, in radians and metres, texts with units, a range
             ``"0 deg:90 deg:91"``, or a DataArray with ``attrs["units"]``; a single value that
             stands in no list is no axis.
 
@@ -663,12 +658,8 @@ class PathGraph(Chainable):
 
         Raises
         ------
-        MissingExtraError
-            If xarray is not installed.
-        ParameterError
-            With all that is wrong with the axes, or as `Plan.run`.
-        ShapeError
-            If the light takes more memory than is free.
+        ParameterError, ShapeError, MissingExtraError
+            With all that is wrong with the axes, as `Plan.run`, or if xarray is not installed.
         """
         own: dict[str, Any] = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
         more: dict[str, Any] = {"scheduler": scheduler, "progress": progress, "composer": composer}
@@ -696,8 +687,6 @@ class PathGraph(Chainable):
 
         Parameters
         ----------
-        *unnamed
-            None.
         method : {"auto", "gradients", "differences", "monte-carlo"}, optional
             Slopes by JAX where it is installed, traces the path and does not take long, else by
             differences; by JAX; by differences; or samples of normal distributions, which are cut
@@ -706,13 +695,11 @@ class PathGraph(Chainable):
             Of ``"monte-carlo"``: 10,000, and what random numbers begin with, 0, by default.
         correlation : mapping of pairs of str to float, optional
             Coefficients of correlation, ``{("n1", "k1"): 0.3}``; 0 for other pairs.
-        detector : str, optional
-            Its name; needed only where there are several.
-        composer : Composer, optional
-            How the path is composed; slopes are in float64, and exact.
-        **values : tuple of two, or array_like
-            A value and its standard uncertainty (one standard deviation), each in radians, metres
-            or texts with units, ``delta=("48 deg", "0.1 deg")``; they may be arrays that
+        detector, composer : optional
+            As `mueller` and `sweep` take them; slopes are in float64, and exact.
+        *unnamed, **values : tuple of two, or array_like
+            By name, a value and its standard uncertainty (one standard deviation), in radians,
+            metres or texts with units, ``delta=("48 deg", "0.1 deg")``; they may be arrays that
             broadcast. What is no tuple is exact.
 
         Returns
@@ -721,10 +708,9 @@ class PathGraph(Chainable):
 
         Raises
         ------
-        ParameterError
-            With everything that is wrong with values, uncertainties and options.
-        MissingExtraError
-            If slopes by JAX are asked for, and JAX is not installed.
+        ParameterError, MissingExtraError
+            With everything that is wrong with values and options, or if JAX is asked for and
+            not installed.
 
         Examples
         --------

@@ -63,12 +63,9 @@ class _Turning:
     def reverse_elements(self, sources: dict[str, Element]) -> None:
         """Reverse the element of each node; light begins at the ends as it is told."""
         meetings = Meetings(self.wiring)
-        at_angle = {
-            meeting.leaves[0]
-            for meeting in meetings.all
-            if getattr(self.before[meeting.enters[0]], "parallel", True) is False
-            and meetings.may_be_shown(meeting)
-        }
+        wedges = {n for n, e in self.before.items() if getattr(e, "parallel", True) is False}
+        tilted = [m for m in meetings.all if m.enters[0] in wedges and meetings.may_be_shown(m)]
+        at_angle = {meeting.leaves[0] for meeting in tilted}
         known: dict[int, Element] = {}
         for name, element in self.before.items():
             if not element.inputs or not element.outputs:

@@ -81,11 +81,8 @@ def read(document: Table) -> PathGraph:
     faults += _unit_faults(values, parameters)
     faults.refuse()
     checked(values)
-    faults += [
-        f"parameter '{name}' is declared, but no element takes it"
-        for name in parameters
-        if name not in values.parameters
-    ]
+    idle = [name for name in parameters if name not in values.parameters]
+    faults += [f"parameter '{name}' is declared, but no element takes it" for name in idle]
     _read_cases(path, sections["cases"], {**values.parameters, **parameters}, values, faults)
     faults.refuse()
     for name, table in document.get("choices", {}).items():

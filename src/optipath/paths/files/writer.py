@@ -69,12 +69,11 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         tables.append(toml_lines(f"[choices.{_key(name)}]", row))
     for name, case in cases.items():
         faults += name_faults(name)
-        faults += [
-            f"case '{name}' gives parameter '{argument}', which is unknown"
-            f"{did_you_mean(argument, parameters)}"
-            for argument in case.values
-            if argument not in parameters
-        ]
+        strange = {
+            one: did_you_mean(one, parameters) for one in case.values if one not in parameters
+        }
+        gives = f"case '{name}' gives parameter"
+        faults += [f"{gives} '{one}', which is unknown{near}" for one, near in strange.items()]
         tables.append(toml_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
     if faults:
         raise PathError(*faults)
@@ -84,11 +83,8 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
 def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
     """Return what the parts of complex numbers are called, for each parameter of such."""
     quantities = (quantity for _, e in graph.nodes(data="element") for quantity in e.quantities())
-    return {
-        value.name: domain.complex_parts
-        for _, value, domain in quantities
-        if isinstance(value, Parameter) and domain.complex_parts
-    }
+    parts = [(value, d.complex_parts) for _, value, d in quantities if d.complex_parts]
+    return {value.name: each for value, each in parts if isinstance(value, Parameter)}
 
 
 def _parameter(parameter: Parameter, complex_parts: tuple[str, ...]) -> dict[str, Any]:
