@@ -158,7 +158,8 @@ class Media:
         """Tell whether a boundary has its incidence in the medium in front."""
         face = self.elements[port[0]]
         # A boundary in space has its angle by its points.
-        return isinstance(face, BoundaryElement) and face.measured[1] is face.outside
+        has_one = isinstance(self.elements[port[0]], BoundaryElement)
+        return has_one and face.measured[1] is face.outside
 
 
 def index_of(value: Any) -> Operand:

@@ -453,9 +453,9 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
     elif not twice and is_zero(turn):
         by_itself = [link[2][1] for link, azimuth in before.items() if azimuth is None]
         if any(not is_zero(azimuth_at(old, port)) for port in by_itself):
-            turned = f"'{name}' is turned by its azimuth {turn_text(_own_turn(old))}"
+            why = f"'{name}' is turned by its azimuth {turn_text(_own_turn(old))}"
             cure = "give it that azimuth, or connect its link anew with azimuth=0.0"
-            raise PathError(f"{turned}, and the new element is not; {cure}")
+            raise PathError(f"{why}, and the new element is not; {cure}")
     graph.nodes[name]["element"] = element
 
 
