@@ -29,11 +29,7 @@ if TYPE_CHECKING:
 
 
 class FourPort(Element):
-    """An element with two sides.
-
-    Light from behind enters at ``back``: what is reflected leaves at ``transmitted``, and what
-    passes at ``reflected``.
-    """
+    """An element with two sides, and the ports of an `Interface`."""
 
     inputs: ClassVar[tuple[str, ...]] = ("in", "back")
     outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")

@@ -40,7 +40,7 @@ from optipath.materials.quantities import (
 )
 from optipath.values.agreement import Agreement, text_of
 from optipath.values.angles import warn
-from optipath.values.arrays import changed, check_broadcast
+from optipath.values.arrays import check_broadcast
 from optipath.values.operands import NOTHING, Operand, Operation, operand_of
 
 if TYPE_CHECKING:
@@ -245,11 +245,11 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
             return []
         return [place for place in inner if not vanishes(pairs[place][1])]
 
-    def taking_over(self, **values: Any) -> LayerStack:
+    def taking_over(self, **values: Any) -> Any:
         """Return a stack like it with values of the boundary before in place of `FOLLOWS`."""
         if "outside" in values:
             values["indices"] = (values.pop("outside"), *self._media[1:])
-        return changed(self, _is_sound=False, **values)
+        return super().taking_over(**values)
 
     @property
     def outside(self) -> Any:

@@ -241,12 +241,13 @@ def class_faults(element_class: type[Any], base: type[Any], kind: Any) -> Iterat
             )
     for which in ("inputs", "outputs", "mirrored"):
         names, what = getattr(element_class, which), "fields" if which == "mirrored" else "ports"
-        if which in own or names is None:
+        if which in own or (names is None and which == "mirrored"):
             continue
         if not isinstance(names, (tuple, list)) or not all(isinstance(n, str) for n in names):
             yield f"{which} of element class {name} must be names of {what}, not {shown(names)}"
         elif which == "mirrored" and (odd := [n for n in names if n == TURN or n not in own]):
-            why = "whose links say how it is turned" if TURN in odd else "which is no field of it"
+            is_turn = odd[0] == TURN
+            why = "whose links say how it is turned" if is_turn else "which is no field of it"
             yield f"mirrored of element class {name} names '{odd[0]}', {why}; take it out"
     if "mueller_rows" in vars(element_class):
         values = [field for field in own if field != TURN]
