@@ -90,7 +90,7 @@ ROOT_CAUSES = [
     ('["0 deg", "90 deg"]', "[0, 90]", "parameters.theta.range: 0 has no unit"),
     ('["0 deg", "90 deg"]', '["0 deg"]', "two ends, not 1"),
     ('["0 deg", "90 deg"]', '["90 deg", "0 deg"]', "begin with the lower end"),
-    ("[0, inf]", "[0, [1, 2]]", "range of parameter 'n' must be numbers, not [1.0, 2.0]"),
+    ("[0, inf]", "[0, [1, 2]]", "the maximum of parameter 'n' must be a number, not [1.0, 2.0]"),
     ("range = [", "rnge = [", "did you mean 'range'?"),
     (
         "default = 1.2\nrange = [0, inf]",
@@ -275,7 +275,7 @@ PARAMETERS = [
 @rows(
     "text, cure",
     [
-        *((text, "physical = false for what is measured") for text in (OF_STATE, through(MATRIX))),
+        *((text, "physical = false for ") for text in (OF_STATE, through(MATRIX))),
         (slab(AIR + 'incidence = "25 deg"'), 'outside = 1.5, or "follows" for outside'),
         (slab(face("1", '"follows"', '"20 deg"')), 'of "follows" (faces behind one that'),
         (boundary(outside='"folows"'), "'folows' is no number; did you mean \"follows\"?"),
