@@ -86,7 +86,7 @@ def test_lines_go_on_in_narrow_terminals_and_missing_values_are_told(run, monkey
     assert lines[lines.index("phi") + 1] == "  54.6 deg"
     whole, wrapped = (shown(columns, "explain npgr026") for columns in ("300", "60"))
     assert wrapped.split() == whole.split()
-    assert re.search("\nfewer than 58 paths .*\n    ", wrapped)
+    assert re.search("\nbatches are run by .*\n    ", wrapped)
     path = op.Source() >> op.Polarizer(op.Parameter("angle_1")) >> op.Detector()
     (tmp_path / "open.toml").write_text(path.to_toml(), "utf-8")
     for command in ("run", "polarization"):

@@ -7,7 +7,6 @@ path as floats, by NumPy (plus an overhead per operation and batch) and by Numba
 from __future__ import annotations
 
 import sys
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from optipath.engines.formula import Engine
@@ -79,7 +78,9 @@ class EngineChoice:
     def __init__(self, engine: str, *, floats: bool, dtype: str = "float64", runs: int = 0) -> None:
         self.engine = engine
         self.compiler = COMPILER if engine == "auto" else engine
-        self.most = most_operations(engine, dtype) if is_installed(self.compiler) else -1
+        taken = engine != "numpy" and dtype in REGISTRY[self.compiler].precisions
+        able = taken and is_installed(self.compiler)
+        self.most = REGISTRY[self.compiler].longest if able else -1
         self.floats = floats
         self.decided = NUMPY_STEPS if engine == "jax" else ""
         # For how many paths something is made, be it never asked for again.
@@ -121,20 +122,6 @@ class EngineChoice:
         return earned > compiling(operations)
 
 
-def default_engine(
-    engine: str, count: int, operations: int | None, *, floats: bool, dtype: str = "float64"
-) -> str:
-    """Return what runs so many paths once that has been done several times.
-
-    >>> default_engine("auto", 10, 300, floats=True)
-    'floats'
-    >>> default_engine("numba", 10, 300, floats=True)
-    'numba'
-    """
-    choice = EngineChoice(engine, floats=floats, dtype=dtype, runs=SEVERAL)
-    return choice.of(count, SimpleNamespace(is_stored=False, operations=lambda **_: operations))
-
-
 def cost(operations: int, count: int) -> float:
     """Return how many seconds so many paths take without Numba."""
     return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
@@ -143,42 +130,6 @@ def cost(operations: int, count: int) -> float:
 def compiling(operations: int) -> float:
     """Return how many seconds it takes to compile so many operations."""
     return _BEGINNING + _COMPILING * operations + _OPTIMIZING * operations**2
-
-
-def most_operations(engine: str, dtype: str) -> float:
-    """Return how many operations are compiled: as many as the engine can take."""
-    limits = REGISTRY[COMPILER if engine == "auto" else engine]
-    if engine == "numpy" or dtype not in limits.precisions:
-        return -1
-    return limits.longest
-
-
-def batches(engine: str, operations: int | None, dtype: str) -> str:
-    """Return in words what runs batches of which size."""
-    most = most_operations(engine, dtype)
-    if 0 <= most < (operations or 0):
-        compiler = (COMPILER if engine == "auto" else engine).capitalize()
-        return (
-            f"large batches are run by numpy: formulas of more than {most:,} operations take "
-            f"{compiler} too long to compile"
-        )
-    if engine == "numpy":
-        return f"fewer than {FEW:,} paths are run step by step, from {FEW:,} by numpy"
-    floats = dtype == "float64"
-    if engine != "auto":
-        runs = engine if most >= 0 else f"numpy, since {engine} does not take {dtype}"
-        if floats:
-            return f"one path of floats is run as Python, every array by {runs}"
-        return f"all paths are run by {runs}"
-    how = "as floats one by one" if floats else "step by step"
-    runs = f"fewer than {HANDFUL} paths are run {how}, more by numpy"
-    if not operations or not is_installed(COMPILER):
-        return runs
-    paths = compiling(operations) / (FORESIGHT * _BY_NUMPY * operations)
-    return (
-        f"{runs}, and all by {COMPILER} where it has compiled the path before, or after some "
-        f"{float(f'{paths:.2g}'):,.0f} paths, when compiling takes less time than it saves"
-    )
 
 
 def is_installed(engine: str) -> bool:

@@ -194,8 +194,11 @@ def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Form
     """
     known: list[Symbol] = []
     outcomes: list[Formula] = []
-    for own in sorted({s.axes for s in whole.steps if s.axes < axes and s.axes}, key=_order):
-        later = _later(whole, own)
+    fewer = {step.axes for step in whole.steps if step.axes < axes and step.axes}
+    for own in sorted(fewer, key=lambda several: (len(several), sorted(several))):
+        # What is needed of a stage once it is done.
+        operands = [o for step in whole.steps if step.axes > own for o in step.operands]
+        later = {o.index for o in (*operands, *whole.computed) if isinstance(o, Symbol)}
         results = tuple(s for s in whole.steps if s.axes == own and s.index in later)
         outcomes.append(_stage(whole, results, own, last, known))
         known += results
@@ -206,12 +209,6 @@ def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Form
         if not (isinstance(result, Symbol) and result.index in done)
     )
     return (*outcomes, _stage(whole, results, axes, last, known, frozenset()))
-
-
-def _later(whole: Formula, own: frozenset[int]) -> set[int]:
-    """Return what is needed of a stage once it is done."""
-    operands = (o for step in whole.steps if step.axes > own for o in step.operands)
-    return {o.index for o in (*operands, *whole.computed) if isinstance(o, Symbol)}
 
 
 def _stage(
@@ -236,10 +233,6 @@ def _stage(
         last=last if last in own and len(own) > 1 else None,
         earlier=frozenset(symbol.index for symbol in known if symbol.axes < own),
     )
-
-
-def _order(axes: frozenset[int]) -> tuple[int, list[int]]:
-    return len(axes), sorted(axes)
 
 
 FROM_NEARER, FROM_ANY = "left from the nearer axis", "left from axes"

@@ -135,8 +135,8 @@ class JaxPath:
 
     def _operands(self, values: Mapping[str, Any], absent: frozenset[str]) -> list[Any]:
         return [
-            self._number(values[_place(place)])
-            if _place(place) in values
+            self._number(values[f".{place}"])
+            if f".{place}" in values
             else self._operand(operand, values, absent)
             for place, operand in enumerate(self.program.operands)
         ]
@@ -156,9 +156,7 @@ class JaxPath:
         else:
             raw = operand.placed(jnp.asarray(values[value.name]))
         if operand.part == "imag" and not jnp.iscomplexobj(raw):
-            return self.dtype.type(
-                0.0
-            )  # Known while JAX traces: the kernels without absorption do.
+            return self.dtype.type(0.0)  # Known while JAX traces: nothing absorbs.
         raw = part_of(raw, operand.input_part, operand.tail)
         # A cosine is 0 at a right angle, but with its slope.
         return operand.evaluated(JAX, self._number(raw))
@@ -189,9 +187,9 @@ class JaxPath:
             if operand.part not in ("cos", "sin"):
                 continue
             if isinstance(pair, CosSin) and not key.is_affine:
-                values[_place(place)] = operand.evaluated(JAX, (pair.cos, pair.sin))
+                values[f".{place}"] = operand.evaluated(JAX, (pair.cos, pair.sin))
             elif kind != self.dtype and not is_jax(angle):
-                values[_place(place)] = operand.evaluated(NUMPY, np.asarray(angle).astype(kind))
+                values[f".{place}"] = operand.evaluated(NUMPY, np.asarray(angle).astype(kind))
         return values, frozenset(absent)
 
     def _precision(self, values: Mapping[str, Any]) -> Any:
@@ -221,11 +219,6 @@ def double_precision() -> Any:
     from jax.experimental import enable_x64  # noqa: PLC0415 - where older versions have it
 
     return enable_x64
-
-
-def _place(place: int) -> str:
-    """Return what an operand is called that is computed before JAX is asked."""
-    return f".{place}"
 
 
 class StepByStep(Carrier):

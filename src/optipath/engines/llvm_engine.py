@@ -89,20 +89,22 @@ def _split_inputs(formula: Formula) -> list[Symbol]:
 
 
 _REAL = {"float64": "double", "float32": "float"}
-_COMPARED = {
-    "less": "lt",
-    "less_equal": "le",
-    "greater": "gt",
-    "greater_equal": "ge",
-    "equal": "eq",
-    "not_equal": "ne",
-    "maximum": "ge",
-    "minimum": "le",
-}
-"""How LLVM compares; the larger and the smaller of two numbers are chosen by a comparison."""
-
 _DONE = {"add": "add", "subtract": "sub", "multiply": "mul", "divide": "div"}
-_OF_CONDITIONS = {"logical_and": "and", "logical_or": "or", "add": "or", "multiply": "and"}
+_ORDER = {"less": "lt", "less_equal": "le", "greater": "gt", "greater_equal": "ge"}
+_ALIKE = {"equal": "icmp eq", "not_equal": "icmp ne", "logical_and": "and", "logical_or": "or"}
+_OPCODES = {
+    "float": {name: f"f{opcode}" for name, opcode in _DONE.items()}
+    | {name: f"fcmp o{how}" for name, how in _ORDER.items()}
+    | {"negative": "fneg", "equal": "fcmp oeq", "not_equal": "fcmp une"},
+    "int": _DONE | _ALIKE | {name: f"icmp s{how}" for name, how in _ORDER.items()},
+    "bool": _ALIKE
+    | {"add": "or", "multiply": "and"}
+    | {name: f"icmp u{how}" for name, how in _ORDER.items()},
+}
+"""Operations that are one instruction, by the kind of their operands."""
+
+_CHOSEN = {"maximum": "greater_equal", "minimum": "less_equal"}
+"""The comparison by which the larger or the smaller of two numbers is chosen."""
 
 _CALLED = {"absolute": "fabs", "sqrt": "sqrt", "exp": "exp", "sin": "sin", "cos": "cos"}
 _CALLED |= {"power": "pow"}
@@ -296,7 +298,7 @@ class _Writer:
 
     def done(self, step: Symbol) -> str:
         """Write an operation, and return the name of its result."""
-        operation, operands = step.operation, step.operands
+        emit, operation, operands = self.emit, step.operation, step.operands
         if operation == "ldexp":
             return self.scaled(self.value(operands[0]), self.value(operands[1], "int"))
         chosen = operands[1:] if operation == "where" else operands
@@ -305,55 +307,35 @@ class _Writer:
         of = {"float": self.real, "int": "i64", "bool": "i1"}[kind]
         values = [self.value(operand, kind) for operand in chosen]
         both = ", ".join(values)
-        if operation == "where":
-            condition, (yes, no) = self.value(operands[0], "bool"), values
-            return self.emit(f"select i1 {condition}, {of} {yes}, {of} {no}")
-        if operation in _COMPARED:
-            compare = {"float": "fcmp o", "int": "icmp s", "bool": "icmp u"}[kind]
-            name = _COMPARED[operation]
-            if name in ("eq", "ne"):
-                compare = {"eq": "fcmp o", "ne": "fcmp u"}[name] if kind == "float" else "icmp "
-            result = self.emit(f"{compare}{name} {of} {both}")
-            if operation not in ("maximum", "minimum"):
-                return result
-            return self.emit(f"select i1 {result}, {of} {values[0]}, {of} {values[1]}")
-        return (self.of_floats if kind == "float" else self.of_integers)(operation, of, values)
-
-    def of_floats(self, operation: str, of: str, values: list[str]) -> str:
-        """Write an operation on floats, and return the name of its result."""
-        both = ", ".join(values)
-        if operation == "exponent":
-            return self.exponent(values[0])
-        if operation == "integer":
-            return self.emit(f"fptosi {of} {values[0]} to i64")
-        if operation in _DONE:
-            return self.emit(f"f{_DONE[operation]} {of} {both}")
-        if operation == "negative":
-            return self.emit(f"fneg {of} {both}")
-        if operation == "product_rest":
-            product = self.emit(f"fmul {of} {both}")
-            return self.call("llvm.fma", of, *values, self.emit(f"fneg {of} {product}"))
+        match operation:
+            case _ if operation in _OPCODES[kind]:
+                return emit(f"{_OPCODES[kind][operation]} {of} {both}")
+            case "where" | "maximum" | "minimum":
+                if operation == "where":
+                    condition = self.value(operands[0], "bool")
+                else:
+                    condition = emit(f"{_OPCODES[kind][_CHOSEN[operation]]} {of} {both}")
+                return emit(f"select i1 {condition}, {of} {values[0]}, {of} {values[1]}")
+            case "exponent":
+                return self.exponent(values[0])
+            case "integer" | "logical_not":
+                whole = f"fptosi {of} {both} to i64"
+                return emit(whole if operation == "integer" else f"xor i1 {both}, true")
+            case "product_rest":
+                product = emit(f"fmul {of} {both}")
+                return self.call("llvm.fma", of, *values, emit(f"fneg {of} {product}"))
+            case "absolute" if kind == "bool":
+                return both
+            case "absolute" | "negative" if kind == "int":
+                negative = emit(f"sub i64 0, {both}")
+                if operation == "negative":
+                    return negative
+                below = emit(f"icmp slt i64 {both}, 0")
+                return emit(f"select i1 {below}, i64 {negative}, i64 {both}")
+            case "floor_divide" | "remainder" if kind != "float":
+                return self.whole_divided(operation, *values)
         function = "atan2" if operation == "arctan2" else f"llvm.{_CALLED[operation]}"
         return self.call(function, of, *values)
-
-    def of_integers(self, operation: str, of: str, values: list[str]) -> str:
-        """Write an operation on integers or conditions, and return the name of its result."""
-        both = ", ".join(values)
-        if operation in _OF_CONDITIONS and (of == "i1" or operation.startswith("logical")):
-            return self.emit(f"{_OF_CONDITIONS[operation]} {of} {both}")
-        if operation == "logical_not":
-            return self.emit(f"xor i1 {both}, true")
-        if operation == "absolute" and of == "i1":
-            return both
-        if operation in ("absolute", "negative"):
-            negative = self.emit(f"sub i64 0, {both}")
-            if operation == "negative":
-                return negative
-            below = self.emit(f"icmp slt i64 {both}, 0")
-            return self.emit(f"select i1 {below}, i64 {negative}, i64 {both}")
-        if operation in ("floor_divide", "remainder"):
-            return self.whole_divided(operation, *values)
-        return self.emit(f"{_DONE[operation]} {of} {both}")
 
     def call(self, function: str, of: str, *values: str) -> str:
         """Write the call of a function of floats."""

@@ -116,17 +116,14 @@ class BlockWriter:
         lines = []
         for symbol in formula.inputs:
             if not symbol.uniform:
+                given, name = f"a{symbol.index}", formula.name_of(symbol)
                 self._names[symbol.index] = f"t{symbol.index}"
-                if formula.name_of(symbol) in formula.wide:
-                    low, high = formula.wide[formula.name_of(symbol)]
-                    inside = (
-                        f"({low!r} <= a{symbol.index}.min()) & (a{symbol.index}.max() <= {high!r})"
-                    )
+                if name in formula.wide:
+                    low, high = formula.wide[name]
+                    inside = f"({low!r} <= {given}.min()) & ({given}.max() <= {high!r})"
                     lines.append(f"if not {inside}: return False")
-                if symbol.kind == "float":
-                    lines.append(f"t{symbol.index} = a{symbol.index}.astype(T, copy=False)")
-                else:
-                    lines.append(f"t{symbol.index} = a{symbol.index}")
+                cast = ".astype(T, copy=False)" if symbol.kind == "float" else ""
+                lines.append(f"t{symbol.index} = {given}{cast}")
         for left in formula.lefts:
             if not left.uniform:
                 angle = f"a{formula.whole_of(left).index}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import KW_ONLY, dataclass, field
 from functools import reduce
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -39,6 +40,7 @@ _APART = 1e-6
 """How far the squares of a cosine and a sine may be from 1 together."""
 
 
+@dataclass(eq=False, repr=False)
 class PathFormula:
     """Records what a program does with what is given, for values within their limits.
 
@@ -46,32 +48,22 @@ class PathFormula:
     is for one path of floats, by functions that paths share; `counted` counts operations alone.
     """
 
-    def __init__(
-        self,
-        program: Program,
-        dtype: str,
-        forms: Mapping[InputKey, str],
-        limits: Mapping[Hashable, Limits],
-        axes: Mapping[Any, frozenset[int]] = NO_AXES,
-        *,
-        masks: bool = False,
-        unreduced: bool = False,
-        single: bool = False,
-        counted: bool = False,
-    ) -> None:
-        self.program = program
-        self.forms = forms
-        self.limits = limits
-        self.axes = axes
-        self.masks = masks
-        self.unreduced = unreduced
-        self.single = single
-        self.counted = counted
-        self.precision = dtype
-        self.recorder = Recorder(np.dtype(dtype))
+    program: Program
+    precision: str
+    forms: Mapping[InputKey, str]
+    limits: Mapping[Hashable, Limits]
+    axes: Mapping[Any, frozenset[int]] = NO_AXES
+    _: KW_ONLY
+    masks: bool = False
+    unreduced: bool = False
+    single: bool = False
+    counted: bool = False
+    holds: list[Any] = field(default_factory=list, init=False)
+
+    def __post_init__(self) -> None:
+        self.recorder = Recorder(np.dtype(self.precision))
         self.dtype = self.recorder.dtype
-        self.xp = SYMBOLIC if counted else reproducible_symbolic(dtype)
-        self.holds: list[Any] = []
+        self.xp = SYMBOLIC if self.counted else reproducible_symbolic(self.precision)
 
     def lights(self, carrier: type[Carrier]) -> Formula:
         """Return the formula of the light at every end, if it is finite and not too faint.

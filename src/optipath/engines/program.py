@@ -220,24 +220,20 @@ class Column(NamedTuple):
     leaves: Any
 
 
+@dataclass(eq=False, repr=False)
 class LoopSolver:
     """The lights at the junctions of a loop, for any light that arrives there."""
 
-    def __init__(
-        self,
-        program: Program,
-        loop: Loop,
-        numbers: Callable[[int], Numbers],
-        xp: Primitives,
-        number: Callable[[Any], Any],
-        rounded: Callable[[Any], Any] | None = None,
-    ) -> None:
-        self.number = number
-        self.rounded = rounded or number
-        self.program = program
-        self.loop = loop
-        self.numbers = numbers
-        self.carrier = StokesCarrier(xp)
+    program: Program
+    loop: Loop
+    numbers: Callable[[int], Numbers]
+    xp: Primitives
+    number: Callable[[Any], Any]
+    rounded: Callable[[Any], Any] | None = None
+
+    def __post_init__(self) -> None:
+        loop = self.loop
+        self.carrier = StokesCarrier(self.xp)
         self.unknowns = [
             (junction, part) for junction in loop.junctions for part in range(self.count(junction))
         ]
@@ -246,11 +242,11 @@ class LoopSolver:
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
         self.leaves = [self._resolved(column.leaves) for column in self.columns]
         self._system = Elimination(
-            xp,
+            self.xp,
             [self.scattered(column.back) for column in self.columns],
             self.leaves,
             [part < 2 for _, part in self.unknowns],
-            None if rounded is None else reduce(and_, self.fading(), True),  # noqa: FBT003
+            None if self.rounded is None else reduce(and_, self.fading(), True),  # noqa: FBT003
         )
         self.pivots = self._system.pivots
         self.found: list[Any] = []
@@ -263,10 +259,11 @@ class LoopSolver:
         """Return the parts of the light at each junction, for those of what arrives at some."""
         argument = self.scattered(arriving)
         result = self._system.solved([argument.get(i, 0.0) for i in range(len(self.unknowns))])
-        self.found = [result if is_zero(result) else self.rounded(result) for result in result]
+        rounded = self.rounded or self.number
+        self.found = [number if is_zero(number) else rounded(number) for number in result]
         lights: dict[int, Parts] = dict.fromkeys(self.loop.junctions, ())
         for (junction, _), number in zip(self.unknowns, self.found, strict=True):
-            lights[junction] = (*lights[junction], self.rounded(number))
+            lights[junction] = (*lights[junction], rounded(number))
         return lights
 
     @property

@@ -156,12 +156,7 @@ class Recorder:
         return self.input(name, axes=frozenset())
 
     def input(
-        self,
-        name: Any,
-        kind: str = "float",
-        *,
-        axes: frozenset[int] = ONE_AXIS,
-        left: str = "",
+        self, name: Any, kind: str = "float", *, axes: frozenset[int] = ONE_AXIS, left: str = ""
     ) -> Symbol:
         """Return the symbol of a number that is given, or of what is left of an angle."""
         operation = left or "input"
@@ -282,10 +277,6 @@ def _either(rule: Rule) -> Rule:
     return either
 
 
-def _add(a: Any, b: Any) -> Any:
-    return b if is_number(a, 0.0) else None
-
-
 def _subtract(a: Any, b: Any) -> Any:
     if is_number(b, 0.0):
         return a
@@ -355,7 +346,7 @@ def _power(a: Any, b: Any) -> Any:
 
 _RULES: dict[str, Rule] = {
     "absolute": lambda a: a if a.positive else None,
-    "add": _either(_add),
+    "add": _either(lambda a, b: b if is_number(a, 0.0) else None),
     "divide": _divide,
     "equal": lambda a, b: np.True_ if a is b and a.kind == "bool" else None,
     "fixed": lambda a: a,

@@ -36,8 +36,7 @@ if TYPE_CHECKING:
     from optipath.plan.reading import Batch
     from optipath.plan.runner import Runner
     from optipath.values.parameters import Parameter
-
-    Array = np.ndarray[Any, Any]
+    from optipath.values.precision import Array
 
 
 class Answers:
@@ -249,14 +248,27 @@ def _whole(stokes: Any, batch: tuple[int, ...]) -> Array:
 class _Later:
     """What is made of the values of a run when somebody asks for it, once."""
 
+    _made: Any
+
     def __init__(
-        self, inputs: Inputs, parameters: Mapping[str, Any], names: Iterable[str], where: Any
+        self, of: Any, inputs: Inputs, parameters: Mapping[str, Any], where: Any = ()
     ) -> None:
+        self.of = of
         self.inputs = inputs
         self.where = where
         # The batch, of which the light is a part, depends on all of them.
-        own = parameters if where else parameters.keys() & names
+        own = parameters if where else parameters.keys() & self.names
         self.parameters = {name: kept(parameters[name]) for name in own}
+
+    def __call__(self) -> Any:
+        """Return it; None if it is in doubt."""
+        return self._made
+
+    @property
+    def names(self) -> Iterable[str]:
+        """The parameters that it depends on."""
+        names: Iterable[str] = self.of.names
+        return names
 
     def value(self, name: str) -> Any:
         """Return what was given for a parameter, or its default."""
@@ -274,23 +286,12 @@ class _Later:
 
 
 class LaterFrame(_Later):
-    """Makes a frame out of what a run was given."""
-
-    def __init__(
-        self, frame: VertexFrame, inputs: Inputs, parameters: Mapping[str, Any], where: Any = ()
-    ) -> None:
-        super().__init__(inputs, parameters, frame.names, where)
-        self.frame = frame
-
-    def __call__(self) -> Frame:
-        """Return the frame."""
-        return self._made
+    """Makes a `Frame` of a `VertexFrame`."""
 
     @cached_property
-    def _made(self) -> Frame:
-        names = self.frame.names
-        arguments = {name: self.inputs.numbers_for(name, self.value(name)) for name in names}
-        return self.frame.frame(arguments, self.part if self.where else np.asarray)
+    def _made(self) -> Any:
+        arguments = {name: self.inputs.numbers_for(name, self.value(name)) for name in self.names}
+        return self.of.frame(arguments, self.part if self.where else np.asarray)
 
 
 def kept(value: Any) -> Any:
@@ -323,31 +324,22 @@ def wavelengths_among(inputs: Inputs) -> tuple[Parameter, ...]:
 
 
 class LaterWavelength(_Later):
-    """Finds the wavelengths of light in what a run was given."""
+    """Finds the wavelengths of light, in meters, which broadcast to the batch."""
 
-    def __init__(
-        self,
-        among: tuple[Parameter, ...],
-        inputs: Inputs,
-        parameters: Mapping[str, Any],
-        where: Any = (),
-    ) -> None:
-        super().__init__(inputs, parameters, (among[0].name,), where)
-        self.among = among
-
-    def __call__(self) -> Any:
-        """Return the wavelengths, in metres; they broadcast to the batch. None if in doubt."""
-        return None if self.in_doubt else self._wavelength
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parameters that may give them; where one does, it does."""
+        return tuple([one.name for one in self.of])
 
     @property
     def in_doubt(self) -> tuple[str, ...]:
         """The names of the parameters that may all give them; none where one does."""
-        return tuple([one.name for one in self.among]) if len(self.among) > 1 else ()
+        return self.names if len(self.of) > 1 else ()
 
     @cached_property
-    def _wavelength(self) -> Any:
-        (parameter,) = self.among
-        result, present = parameter.resolve(self.value(parameter.name))
-        result = result if np.all(present) else np.where(present, result, np.nan)
-        result = self.part(result)
+    def _made(self) -> Any:
+        if self.in_doubt:
+            return None
+        result, present = self.of[0].resolve(self.value(self.of[0].name))
+        result = self.part(result if np.all(present) else np.where(present, result, np.nan))
         return result if is_traced(result) else locked(np.array(result, np.float64))

@@ -19,8 +19,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.formula import ArrayPath, Formula
     from optipath.plan.reading import Layout, Piece
-
-    Array = np.ndarray[Any, Any]
+    from optipath.values.precision import Array
 
 
 _AT_ONCE = 1 << 16
@@ -90,12 +89,10 @@ class BatchRunner:
             outcome, failed = self._rows(self._stages(engine, in_one=True), numbers, layout)
         if failed:
             refused()
-            out = np.empty((len(outcome.each), outcome.out.shape[1]), self.formula.dtype)
-            for row, result in zip(out, outcome.each, strict=True):
-                row[...] = result
+            out = outcome.block(0, len(outcome.each))
             for piece in failed:
                 out[:, piece.start : piece.stop] = fallback(piece)
-            outcome = Results([*out], out, [*range(len(out))])
+            outcome = Results.of(out, self.formula.dtype)
         return outcome
 
     def _stages(self, engine: str, *, in_one: bool = False) -> _Compiled:

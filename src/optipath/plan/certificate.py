@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    Array = np.ndarray[Any, Any]
-
 
 _DOP = Domain("degree of polarisation", minimum=0.0, maximum=1.0)
 _DIATTENUATION = Domain("diattenuation", minimum=-1.0, maximum=1.0)

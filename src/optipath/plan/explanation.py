@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass
 from math import prod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.choice import LARGE, batches
+from optipath.engines.choice import FEW, HANDFUL, LARGE
 from optipath.errors import ParameterError, listed
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import FULL, ROTATION
@@ -17,7 +17,7 @@ from optipath.values.arrays import joint_shape
 from optipath.values.operands import MANY
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from optipath.engines.program import Loop, Program, Step
     from optipath.kernels.carriers.carrier import Carrier
@@ -49,9 +49,9 @@ class ExplainedLoop:
     layered: bool
 
     def __str__(self) -> str:
-        places = _first_few(self.places)
         how = "added layer after layer" if self.layered else "summed over all rounds"
-        return f"light goes round at {places}: {how}, {_count(self.unknowns, 'unknown')}"
+        unknowns = _count(self.unknowns, "unknown")
+        return f"light goes round at {_first_few(self.places)}: {how}, {unknowns}"
 
 
 @dataclass(frozen=True)
@@ -70,25 +70,23 @@ class Explanation:
     certificate: Mapping[str, Any] | None = None
     tolerance: Mapping[str, Any] | None = None
     notes: tuple[str, ...] = ()
-    parameters: tuple[str, ...] = field(default=())
+    parameters: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """Return all of it as JSON can hold it."""
         return asdict(self)
 
     def __str__(self) -> str:
-        manner, tolerance = self.manner, self.tolerance
+        manner, tolerance, counts = self.manner, self.tolerance, self.operations
         counted = [_count(n, what) for what, n in self.counts.items() if n or what != "dump"]
-        words = [f"{name} {manner[name]}" for name in ("method", "model", "engine")]
-        words.append(manner["dtype"])
-        if manner["composing"] == "jones":
-            words.append("composing Jones columns")
+        how = [f"{name} {manner[name]}" for name in ("method", "model", "engine")]
+        how += [manner["dtype"], *["composing Jones columns"] * (manner["composing"] == "jones")]
         reads = [
             f"{name} reads {', '.join(self.reads[name])} of light {light}"
             for name, light in self.light_at.items()
         ]
         lines = [
-            f"{', '.join(counted)}; {', '.join(words)}",
+            f"{', '.join(counted)}; {', '.join(how)}",
             f"model {manner['model']}: {self.reason}",
             "",
         ]
@@ -98,18 +96,24 @@ class Explanation:
             *_step_lines(self.steps),
             "",
             *_shortened(reads, "readings", _SHOWN),
-            *_shortened(list(map(str, self.loops)), "loops", _FEW),
+            *_shortened([*map(str, self.loops)], "loops", _FEW),
         ]
-        if self.operations is not None:
-            plan, full = (_operations(self.operations[name]) for name in ("plan", "full"))
+        if counts is not None:
+            plan, full = (_operations(counts[name]) for name in ("plan", "full"))
             lines.append(f"operations per path: {plan}; of the full 4x4 composition: {full}")
         if tolerance is not None:
             lines.append(f"tolerance {tolerance['most']:g}: {tolerance['text']}")
         if self.certificate is not None:
             lines.append(f"certificate: {self.certificate['text']}")
         folded = [f"folded: {sentence}" for sentence in self.folded]
-        lines += _shortened(folded, "folds", _FEW)
-        return "\n".join([*lines, *self.notes, *_shortened(self.parameters, "parameters", _SHOWN)])
+        return "\n".join(
+            [
+                *lines,
+                *_shortened(folded, "folds", _FEW),
+                *self.notes,
+                *_shortened(self.parameters, "parameters", _SHOWN),
+            ]
+        )
 
 
 def _loop(program: Program, loop: Loop) -> ExplainedLoop:
@@ -151,14 +155,11 @@ def _shortened(lines: Sequence[str], what: str, most: int) -> list[str]:
 
 
 def _step_lines(steps: Sequence[ExplainedStep]) -> list[str]:
-    half, more = _SHOWN // 2, len(steps) - _SHOWN
-    shown = steps if more <= 0 else (*steps[:half], *steps[-half:])
-    rows = [(str(s.light), s.label, " ".join(s.live), s.action) for s in shown]
-    widths = [max((len(row[column]) for row in rows), default=0) for column in range(3)]
-    lines = [
-        f"{light.rjust(widths[0])}  {label.ljust(widths[1])}  {live.ljust(widths[2])}  {action}"
-        for light, label, live, action in rows
-    ]
+    rows = [(str(s.light), s.label, " ".join(s.live), s.action) for s in steps]
+    half, more = _SHOWN // 2, len(rows) - _SHOWN
+    rows = rows if more <= 0 else [*rows[:half], *rows[-half:]]
+    a, b, c = (max((len(row[column]) for row in rows), default=0) for column in range(3))
+    lines = [f"{n:>{a}}  {label:<{b}}  {live:<{c}}  {action}" for n, label, live, action in rows]
     return lines if more <= 0 else [*lines[:half], f"... {more} more steps ...", *lines[half:]]
 
 
@@ -177,8 +178,12 @@ def _count(number: int, what: str) -> str:
     return f"{number} {what}" + "s" * (number != 1)
 
 
-def _components(places: Iterable[int]) -> tuple[str, ...]:
+def _components(places: Sequence[int]) -> tuple[str, ...]:
     return tuple(f"S{place}" for place in places)
+
+
+def _first_few(names: Sequence[str]) -> str:
+    return ", ".join(names[:_FEW]) + (", ..." if len(names) > _FEW else "")
 
 
 def explanation_of(plan: Any) -> Explanation:
@@ -255,10 +260,6 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     return {"bounds": bounds, "text": "; ".join(texts) + at}
 
 
-def _first_few(names: Sequence[str]) -> str:
-    return ", ".join(names[:_FEW]) + (", ..." if len(names) > _FEW else "")
-
-
 def _extremes(certificate: Certificate) -> dict[str, float] | None:
     """Return the widest bounds of a batch; None where there are none."""
     lower = float(np.min(certificate.lower, initial=np.inf))
@@ -267,24 +268,24 @@ def _extremes(certificate: Certificate) -> dict[str, float] | None:
 
 
 def _notes(plan: Any) -> Iterator[str]:
-    yield from _each(plan.outlets, "has no link: its light leaves the path")
-    runner, engine = plan.answers.light, plan.chosen
+    outlets = [f"{port} has no link: its light leaves the path" for port in plan.outlets]
+    tap = "is a tap, which takes nothing: leave its light out of sums of energy"
+    taps = [f"{port} {tap}" for port in plan.taps]
+    yield from _shortened(outlets, "ports like these", _FEW)
     if plan.engine_for(LARGE) != plan.engine:
         yield (
             f"all batches are run step by step: paths of at most {LONGEST} "
             f"steps are compiled, in float64 and float32, if all elements compute with xp alone, "
             f"in real numbers"
         )
-    elif engine != "jax":
-        yield batches(engine, runner.length, runner.dtype.name)
-    yield from _each(
-        plan.taps, "is a tap, which takes nothing: leave its light out of sums of energy"
-    )
-
-
-def _each(ports: Sequence[str], what: str) -> list[str]:
-    """Return a sentence for each port, or for the first few of many."""
-    return _shortened([f"{port} {what}" for port in ports], "ports like these", _FEW)
+    else:
+        sizes: dict[str, int] = {}
+        for count in sorted({2, HANDFUL, FEW, *[10**power for power in range(10)]}):
+            sizes.setdefault(plan.engine_for(count), count)
+        (first, _), *others = sizes.items()
+        larger = [f"; from {count:,} paths, {engine}" for engine, count in others]
+        yield f"batches are run by {first}{''.join(larger)}"
+    yield from _shortened(taps, "ports like these", _FEW)
 
 
 def operations(

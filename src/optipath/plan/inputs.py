@@ -203,7 +203,8 @@ class Inputs:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Inputs):
             return NotImplemented
-        return dict(self.open) == dict(other.open) and self._batch() == other._batch()
+        batches = [joint_shape(*each.shapes.values()) for each in (self, other)]
+        return dict(self.open) == dict(other.open) and batches[0] == batches[1]
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -215,9 +216,6 @@ class Inputs:
             for use in self.uses:
                 if use.value.name == name:
                     use.refuse_material(value)
-
-    def _batch(self) -> tuple[int, ...]:
-        return joint_shape(*self.shapes.values())
 
     def unknown(self, name: str) -> str:
         """Return the sentence for a name that is no open parameter's."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import partial, reduce
 from math import prod
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -37,7 +37,7 @@ from optipath.values.arrays import joint_shape
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from optipath.engines.program import LoopSolver, Program, Reading
     from optipath.kernels.carriers.carried import Components
@@ -45,11 +45,10 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.structures import Numbers
     from optipath.plan.reading import Batch
     from optipath.values.operands import Operand, Ranges
+    from optipath.values.precision import Array
 
-    Array = np.ndarray[Any, Any]
 
-
-Shared: TypeAlias = Mapping[int, tuple[np.ndarray[Any, Any], ...]]
+Shared: TypeAlias = "Mapping[int, tuple[Array, ...]]"
 
 _LONG = 16
 
@@ -61,6 +60,7 @@ def carrier_of(program: Program, composing: str) -> type[Carrier]:
     return ScaledCarrier if len(program.steps) > _LONG else StokesCarrier
 
 
+@dataclass(eq=False, repr=False)
 class Interpreter:
     """Runs a program without compiling anything.
 
@@ -86,7 +86,7 @@ class Interpreter:
             self._carrying = carrying(program, carrier, self.xp, dtype.name)
         self._known: list[Any] | None = None
 
-    def lights(self, arguments: Batch, shared: Shared | None = None) -> list[np.ndarray[Any, Any]]:
+    def lights(self, arguments: Batch, shared: Shared | None = None) -> list[Array]:
         """Return Stokes vectors (..., 4) at every end; for parts, see `shared`."""
         batch, arguments = arguments.shape, self._as_batch(arguments)
         own = {
@@ -132,7 +132,7 @@ class Interpreter:
                     left -= size
         return result
 
-    def matrix(self, arguments: Batch, source: str, reading: Reading) -> np.ndarray[Any, Any]:
+    def matrix(self, arguments: Batch, source: str, reading: Reading) -> Array:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
         none, shape = self.dtype.type(0.0), (*arguments.shape, 4, 4)
         arguments = self._as_batch(arguments)
@@ -147,7 +147,7 @@ class Interpreter:
         stokes = _stack(lights[reading.light][0], (4, *arguments.shape), reading, self.dtype)
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1)).reshape(shape)
 
-    def bounds(self, arguments: Batch) -> list[np.ndarray[Any, Any]]:
+    def bounds(self, arguments: Batch) -> list[Array]:
         """Return what `BoundsCarrier` reads at every end, shape (4, ...)."""
         batch, arguments = arguments.shape, self._as_batch(arguments)
         operands = self.operands(arguments)
@@ -160,9 +160,8 @@ class Interpreter:
         result = self._execute(arguments, carrier, shared=matrices)
         read = []
         for reading in self.program.readings.values():
-            parts = np.empty((4, *arguments.shape), self.dtype)
-            for row, part in enumerate(result[reading.light][0]):
-                parts[row] = part
+            rows = [np.broadcast_to(row, arguments.shape) for row in result[reading.light][0]]
+            parts = np.array(rows, self.dtype)
             # What is too extreme for floats is bounded by nothing.
             message = np.all(np.isfinite(parts), axis=0)
             parts[1] = np.where(message, parts[1], 0.0)
@@ -180,11 +179,7 @@ class Interpreter:
         return results
 
     def _execute(
-        self,
-        arguments: Batch,
-        carrier: Carrier,
-        emitted: Any = None,
-        shared: Shared | None = None,
+        self, arguments: Batch, carrier: Carrier, emitted: Any = None, shared: Shared | None = None
     ) -> dict[int, Any]:
         solvers: list[LoopSolver] = []
         begin = emitted and emitted(arguments)
@@ -205,12 +200,12 @@ class Interpreter:
             check_gains(solvers)
         return again if part is arguments else _instead(result, again, doubtful)
 
-    def number(self, number: Any) -> np.ndarray[Any, Any]:
+    def number(self, number: Any) -> Array:
         """Return what a kernel gives in the precision of the plan."""
         # Plain numbers among what kernels give have no precision of their own.
         return np.asarray(number, self.dtype)
 
-    def operands(self, arguments: Batch) -> list[np.ndarray[Any, Any]]:
+    def operands(self, arguments: Batch) -> list[Array]:
         """Return the numbers behind the operands of the program."""
         if self._known is None:
             self._known = [
@@ -227,7 +222,7 @@ class Interpreter:
                 results.append(cut if self.limits is None else cut[()])
         return results
 
-    def _operand_array(self, operand: Operand, arguments: Batch) -> np.ndarray[Any, Any]:
+    def _operand_array(self, operand: Operand, arguments: Batch) -> Array:
         key, numbers = operand.input_key, arguments.numbers
         if operand.part == "imag" and numbers[key] is False:
             # Not an array, so that kernels see an index that does not absorb.
@@ -242,7 +237,7 @@ class Interpreter:
             raw = operand.number_in(numbers, lambda n: self._cast(np.atleast_1d(n)))
         return self._cast(operand.evaluated(self.xp, raw))
 
-    def _circular(self, operand: Operand, angle: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    def _circular(self, operand: Operand, angle: Array) -> Array:
         """Return the cosines or sines of angles, as formulas have them."""
         assert self.limits is not None  # noqa: S101 - for mypy
         digits, negative = DIGITS[self.dtype.name], operand.value.is_negative
@@ -261,21 +256,19 @@ class Interpreter:
         far = operand.evaluated(reproducible_numpy("float64"), angle)
         return np.where(small, near, self._cast(far))
 
-    def _cast(self, numbers: Any) -> np.ndarray[Any, Any]:
+    def _cast(self, numbers: Any) -> Array:
         array = np.asarray(numbers)
         with np.errstate(over="ignore", under="ignore"):  # What is not finite is told later.
             return array if array.dtype == bool else array.astype(self.dtype, copy=False)
 
 
-def _doubtful(solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> np.ndarray[Any, Any]:
+def _doubtful(solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> Array:
     """Return for which paths of a batch a loop takes a closer look."""
     holds = [condition for solver in solvers for condition in solver.conditions]
     return np.broadcast_to(np.logical_not(reduce(np.logical_and, holds, np.True_)), batch)
 
 
-def _instead(
-    results: dict[int, Any], others: Mapping[int, Any], where: np.ndarray[Any, Any]
-) -> dict[int, Any]:
+def _instead(results: dict[int, Any], others: Mapping[int, Any], where: Array) -> dict[int, Any]:
     """Return lights, those of some paths replaced by others."""
 
     def put(number: Any, other: Any) -> Any:
@@ -293,7 +286,7 @@ def _instead(
 
 def _stack(
     components: Any, batch: tuple[int, ...], reading: Reading, dtype: np.dtype[Any]
-) -> np.ndarray[Any, Any]:
+) -> Array:
     stokes = np.full((*batch, 4), np.nan, dtype=dtype)
     for component in range(reading.components):
         stokes[..., component] = components[component]
@@ -322,7 +315,7 @@ def what_matrices_lack(program: Program, matrices: Mapping[int, Numbers]) -> Any
     return total
 
 
-def _stacked(numbers: Sequence[Any]) -> np.ndarray[Any, Any]:
+def _stacked(numbers: Sequence[Any]) -> Array:
     """Return matrices (..., 4, 4), in single precision where that holds all their digits."""
     flat = np.stack(np.broadcast_arrays(*numbers), axis=-1)
     with np.errstate(over="ignore"):

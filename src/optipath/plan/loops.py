@@ -6,6 +6,7 @@ summed in twice the precision, by the same kernels.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -26,8 +27,7 @@ if TYPE_CHECKING:
     from optipath.engines.program import Loop, Program
     from optipath.kernels.carriers.structures import Numbers
     from optipath.plan.reading import Batch
-
-    Array = np.ndarray[Any, Any]
+    from optipath.values.precision import Array
 
 
 _MOST = 1 << 22
@@ -194,28 +194,22 @@ def _lit(number: Any, shape: tuple[int, ...]) -> Array:
 _TWICE = twice(NUMPY)
 
 
+@dataclass(eq=False, repr=False)
 class CloserLook:
     """Solves the loops of a program for what is given."""
 
-    def __init__(
-        self,
-        program: Program,
-        arguments: Batch,
-        plain: list[np.ndarray[Any, Any]],
-        dtype: np.dtype[Any],
-    ) -> None:
-        self.program = program
-        self.given = arguments
-        self.plain = plain
-        self.dtype = dtype
-        self._operands: dict[int, Any] = {}
-        self._numbers: dict[int, Numbers] = {}
+    program: Program
+    given: Batch
+    plain: list[Array]
+    dtype: np.dtype[Any]
+    _operands: dict[int, Any] = field(default_factory=dict)
+    _numbers: dict[int, Numbers] = field(default_factory=dict)
 
     def meet(self, loop: Loop) -> LoopSolver:
         """Return the lights at the junctions of a loop."""
         return LoopSolver(self.program, loop, self.numbers, _TWICE, _longer, self._rounded)
 
-    def evaluations(self) -> dict[int, tuple[np.ndarray[Any, Any], ...]]:
+    def evaluations(self) -> dict[int, tuple[Array, ...]]:
         """Return what every evaluation comes to, rounded, as `execute` may be given it.
 
         Reflection, entry and return at a boundary then share each digit of its angle.
@@ -255,8 +249,7 @@ class CloserLook:
         return self._operands[place]
 
     def _rounded(self, number: Any) -> Any:
-        high = number.high if isinstance(number, DoubleDouble) else number
-        return np.asarray(high, self.dtype)
+        return np.asarray(_high(number), self.dtype)
 
 
 def _longer(number: Any) -> DoubleDouble:

@@ -107,11 +107,7 @@ _SAME = 1e-3
 
 
 def noise_at(
-    answers: Any,
-    end: str,
-    parameters: Mapping[str, Any],
-    where: Any,
-    stokes: Array,
+    answers: Any, end: str, parameters: Mapping[str, Any], where: Any, stokes: Array
 ) -> Array:
     """Return what is noise in light, wherever a component of it is small enough for that."""
     result = np.zeros(stokes.shape[:-1], stokes.dtype)

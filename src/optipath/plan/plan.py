@@ -225,9 +225,10 @@ class Plan:
         """
         check_named("mueller", by_place((source, detector), unnamed), self.inputs.open)
         if misplaced := {"source", "detector"} & parameters.keys() - self.inputs.open.keys():
+            first, last = next(iter(self.whole.sources)), next(iter(self.whole.readings))
             raise ParameterError(
                 f"{min(misplaced)} is given by its place: mueller(source, detector), such as "
-                f"mueller({', '.join(map(repr, self._example_of_ends))})"
+                f"mueller({first!r}, {last!r})"
             )
         program = self.whole
         begin = only("source", tuple(program.sources), "mueller(source, detector)", source)
@@ -390,11 +391,6 @@ class Plan:
     def answers(self) -> Answers:
         """What answers all that is asked, and keeps what it has prepared."""
         return Answers(self)
-
-    @property
-    def _example_of_ends(self) -> tuple[str, str]:
-        """A source and a detector that matrices may be asked for."""
-        return next(iter(self.whole.sources)), next(iter(self.whole.readings))
 
     @cached_property
     def _detector(self) -> tuple[str, int, Any]:

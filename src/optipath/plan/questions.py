@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from optipath.plan.interpreter import Shared
     from optipath.plan.reading import Batch
     from optipath.plan.runnable import Runnable
+    from optipath.values.precision import Array
 
-    Array = np.ndarray[Any, Any]
     Shape = tuple[int, ...]
 
 

@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.program import Program
     from optipath.plan.inputs import Inputs
-
-    Array = np.ndarray[Any, Any]
+    from optipath.values.precision import Array
 
 
 _PAIR = ("cos", "sin")
@@ -43,7 +42,7 @@ class Batch(NamedTuple):
         """The number of paths of the whole, of which this may be a part."""
         return self.paths if self.before is None else self.before.ahead
 
-    def cut(self, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    def cut(self, array: Array) -> Array:
         """Return what belongs to this part of an array that broadcasts to the whole batch."""
         if self.before is None or not array.ndim:
             return array
@@ -194,7 +193,7 @@ class InputReader:
         return _one_number(array)
 
 
-def _one_number(array: np.ndarray[Any, Any]) -> Any:
+def _one_number(array: Array) -> Any:
     """Return an array of one number as that number."""
     return array if array.size != 1 or array.dtype.char == "g" else array.item()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -31,8 +32,7 @@ if TYPE_CHECKING:
     from optipath.plan.reading import Batch
     from optipath.values.operands import InputKey
     from optipath.values.parameters import Resolved
-
-    Array = np.ndarray[Any, Any]
+    from optipath.values.precision import Array
 
 
 LONGEST = 200
@@ -54,23 +54,20 @@ class RunOptions(NamedTuple):
         return self.dtype in DIGITS
 
 
+@dataclass(eq=False, repr=False)
 class Runnable:
     """A program, and the ways to run it."""
 
-    def __init__(
-        self,
-        program: Program,
-        inputs: Inputs,
-        options: RunOptions,
-        own_ways: tuple[OwnWays, ...] = (),
-        *,
-        unreduced: bool = False,
-    ) -> None:
-        self.program = program
-        self.inputs = inputs
-        self.options = options
-        self.unreduced = unreduced
-        self.first_values = FirstValues(own_ways)
+    program: Program
+    inputs: Inputs
+    options: RunOptions
+    own_ways: tuple[OwnWays, ...] = ()
+    _: KW_ONLY
+    unreduced: bool = False
+
+    def __post_init__(self) -> None:
+        program, inputs, options = self.program, self.inputs, self.options
+        self.first_values = FirstValues(self.own_ways)
         self.dtype = np.dtype(options.dtype)
         self.carrier = carrier_of(program, options.composing)
         self.may_compile = len(program.steps) <= LONGEST and options.reproducible

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from dataclasses import dataclass
 from functools import cached_property
 from threading import Lock
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,8 +16,8 @@ from optipath.engines.choice import (
     FLOATS,
     NUMPY_STEPS,
     REGISTRY,
+    SEVERAL,
     EngineChoice,
-    default_engine,
 )
 from optipath.errors import ValueFault
 from optipath.kernels.kernel import is_defined_in
@@ -37,8 +39,7 @@ if TYPE_CHECKING:
     from optipath.plan.runnable import RunOptions
     from optipath.plan.scalar_runner import FloatFunction
     from optipath.values.operands import InputKey
-
-    Array = np.ndarray[Any, Any]
+    from optipath.values.precision import Array
 
 
 CACHED = 8192
@@ -59,24 +60,15 @@ def keep(store: dict[Any, Any], key: Any, value: Any) -> None:
     store[key] = value
 
 
+@dataclass(eq=False, repr=False)
 class BatchKind:
     """Batches of one kind: one question, numbers of the same forms, the same axes."""
 
-    def __init__(
-        self,
-        question: Question,
-        forms: Mapping[InputKey, str],
-        layout: Layout,
-        single: ScalarRunner,
-        *,
-        floats: bool,
-    ) -> None:
-        self.question = question
-        self.forms = forms
-        self.layout = layout
-        self.single = single
-        self.runner = runner = single.runner
-        self.choice = EngineChoice(runner.options.engine, floats=floats, dtype=runner.options.dtype)
+    question: Question
+    forms: Mapping[InputKey, str]
+    layout: Layout
+    runner: Runner
+    choice: EngineChoice
 
     @cached_property
     def batches(self) -> BatchRunner | None:
@@ -92,12 +84,12 @@ class BatchKind:
     def function(self) -> FloatFunction | None:
         """What does one path after the other; None where it cannot be made."""
         nothing = frozenset([key for key, form in self.forms.items() if form == ABSENT])
-        return self.single.function(nothing)
+        return self.runner.single.function(nothing)
 
     @property
     def has_floats(self) -> bool:
         """Whether a function of floats has been made."""
-        return bool(self.single.functions)
+        return bool(self.runner.single.functions)
 
     def operations(self, *, floats: bool) -> int | None:
         """Return how many operations a path takes; None where no formula can be made."""
@@ -117,11 +109,7 @@ class Recipe:
     """How the numbers of a batch are taken out of what is given, for batches of its shapes."""
 
     def __init__(
-        self,
-        kind: BatchKind,
-        layout: Layout,
-        known: Mapping[Any, Any],
-        arguments: Batch,
+        self, kind: BatchKind, layout: Layout, known: Mapping[Any, Any], arguments: Batch
     ) -> None:
         parameters = arguments.parameters
         self.kind = kind
@@ -178,16 +166,8 @@ class Recipe:
 class Runner(Runnable):
     """Runs one program, and keeps what has been prepared."""
 
-    def __init__(
-        self,
-        program: Program,
-        inputs: Inputs,
-        options: RunOptions,
-        own_ways: tuple[OwnWays, ...] = (),
-        *,
-        unreduced: bool = False,
-    ) -> None:
-        super().__init__(program, inputs, options, own_ways, unreduced=unreduced)
+    def __post_init__(self) -> None:
+        super().__post_init__()
         self.single = ScalarRunner(self)
         self._ran = ""
         self._kinds: dict[Any, BatchKind] = {}
@@ -233,7 +213,9 @@ class Runner(Runnable):
         kind_key = question.key, forms, layout.key, floats
         kind = self._kinds.get(kind_key)
         if kind is None:
-            kind = BatchKind(question, dict(forms), layout, self.single, floats=floats)
+            options = self.options
+            choice = EngineChoice(options.engine, floats=floats, dtype=options.dtype)
+            kind = BatchKind(question, dict(forms), layout, self, choice)
             keep(self._kinds, kind_key, kind)
         if not arguments.within(self.inputs.limits):
             self.inputs.resolve(parameters)
@@ -313,8 +295,9 @@ class Runner(Runnable):
         for kind in self._kinds.values():
             if kind.choice.decided == kind.choice.compiler:
                 return kind.choice.compiler
-        dtype = self.dtype.name
-        return default_engine(engine, count, self.length, floats=floats, dtype=dtype)
+        choice = EngineChoice(engine, floats=floats, dtype=self.dtype.name, runs=SEVERAL)
+        work = SimpleNamespace(is_stored=False, operations=lambda **_: self.length)
+        return choice.of(count, work)
 
 
 _MOST_RUNNERS = 32
@@ -383,8 +366,3 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
         tuple(inputs.shapes.items()),
         tuple(agreements),
     )
-
-
-def _is_pure(factory: Any) -> bool:
-    """Tell whether a kernel is of the library; one of a user's own may read what changes."""
-    return is_defined_in("optipath.kernels.", factory)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from optipath.plan.reading import Batch, Layout
     from optipath.plan.runnable import Runnable
     from optipath.values.operands import InputKey
+    from optipath.values.precision import Array
 
 
 Lights: TypeAlias = list[tuple[Any, ...]]
@@ -40,7 +41,7 @@ class FloatFunction(NamedTuple):
     names: tuple[Any, ...]
     operations: int
 
-    def rows(self, numbers: Mapping[Any, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
+    def rows(self, numbers: Mapping[Any, Any], layout: Layout) -> Array | None:
         """Return the results of a few paths, shape (results, paths); None where it takes care."""
         columns: list[Any] = []
         for name in self.names:
