@@ -135,10 +135,8 @@ def interface_chart(
     """Measure every way to compute (A, B, C, S) of one interface."""
     runs: list[Run] = []
     for runner in contenders(("stokes",), ("numpy",)):
-        kernel, samples = (
-            REFLECTION.by_method(runner.method),
-            REGIONS[0].samples(PATHS, runner.dtype),
-        )
+        kernel = REFLECTION.by_method(runner.method)
+        samples = REGIONS[0].samples(PATHS, runner.dtype)
         runs.append((runner, partial(matrix_numbers, kernel, samples)))
     least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
 

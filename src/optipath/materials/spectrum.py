@@ -113,13 +113,8 @@ class Spectrum(Curve):
             kind = Sampled(wavelengths, values, outside, label)
         if not isinstance(kind, SpectrumKind):
             raise ValueFault(f"a Spectrum is not made of {shown(kind)}; use Spectrum.{_MAKERS}")
-        vars(self).update(
-            kind=kind,
-            label=kind.label,
-            span=kind.span,
-            beyond=kind.beyond,
-            takes_grid=bool(kind.lines),
-        )
+        vars(self).update({name: getattr(kind, name) for name in ("label", "span", "beyond")})
+        vars(self).update(kind=kind, takes_grid=bool(kind.lines))
 
     @classmethod
     def sampled(cls, wavelengths: Any, values: Any, *, outside: Any = None, name: str = "") -> Self:

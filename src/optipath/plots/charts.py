@@ -304,18 +304,13 @@ def _precisions(failing: list[_Mark], own: list[_Mark]) -> str:
 def _legend(chart: Mapping[str, Any], frame: _Frame) -> list[Artist]:
     """Return what is explained."""
     dot: dict[str, Any] = {"marker": "o", "linewidth": 0}
-    engines, ways = (
-        dict.fromkeys(entry[word] for entry in chart["contenders"])
-        for word in ("engine", "composing")
-    )
+    entries = chart["contenders"]
+    ways = dict.fromkeys(entry["composing"] for entry in entries)
     keys: list[Artist] = [_key(name, color=c, lw=7) for name, c in frame.colours.items()]
     keys += [_key(name, linewidth=0, marker=_SHAPES.get(name, "^")) for name in frame.dtypes]
-    keys += [
-        _key(
-            f"{_FILLED.get(name, 'half')}: {name}", **dot, mew=1.8, **_FACES.get(name, _HALF_FILLED)
-        )
-        for name in engines
-    ]
+    for name in dict.fromkeys(entry["engine"] for entry in entries):
+        style = dot | _FACES.get(name, _HALF_FILLED)
+        keys.append(_key(f"{_FILLED.get(name, 'half')}: {name}", mew=1.8, **style))
     for name in ways if len(ways) > 1 else ():
         text = {"stokes": "large: Stokes", "jones": "small: Jones"}.get(name, f"large: {name}")
         keys.append(_key(text, **dot | {"markersize": _SIZES.get(name, _LARGE)}))

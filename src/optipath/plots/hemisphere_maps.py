@@ -341,13 +341,8 @@ def _draw_disc(
         ax.add_patch(Circle((0.0, 0.0), 1.0, **HATCHED))
         keys += [Patch(label=hatched, **HATCHED)] if hatched else []
     place: dict[str, Any] = {"origin": "lower", "extent": (-1.0, 1.0, -1.0, 1.0), "zorder": 2}
-    image = ax.imshow(
-        np.ma.masked_invalid(values),
-        scale.colours,
-        scale.norm,
-        interpolation="nearest",
-        **place,
-    )
+    place["interpolation"] = "nearest"
+    image = ax.imshow(np.ma.masked_invalid(values), scale.colours, scale.norm, **place)
     image.set_clip_path(horizon)
     reach = 1.16 if labelled else 1.03
     ax.set(xlim=(-reach, reach), ylim=(-reach, reach))

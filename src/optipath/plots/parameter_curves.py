@@ -226,19 +226,12 @@ def draw_map(
 ) -> None:
     """Draw a map (along, up), its color bar, and a cross at the default values."""
     columns, rows = np.argsort(along.numbers), np.argsort(up.numbers)
-    sorted_numbers = numbers[np.ix_(columns, rows)].T
+    cells = np.ma.masked_invalid(numbers[np.ix_(columns, rows)].T)
     scale = quantity.colours(numbers)
     colours = mpl.colormaps[scale.colours].with_extremes(bad=_NONE)
     x, y = along.numbers[columns], up.numbers[rows]
-    image: Any = ax.pcolormesh(
-        x,
-        y,
-        np.ma.masked_invalid(sorted_numbers),
-        cmap=colours,
-        norm=scale.norm,
-        shading="nearest",
-        rasterized=True,
-    )
+    how: dict[str, Any] = {"cmap": colours, "norm": scale.norm, "shading": "nearest"}
+    image: Any = ax.pcolormesh(x, y, cells, rasterized=True, **how)
     # The outer cells reach beyond the values, where there may be none.
     ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     label_axes(ax, along.label, up.label)

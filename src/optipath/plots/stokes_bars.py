@@ -122,11 +122,8 @@ def _draw_bars(ax: Axes, numbers: _ByName, printed: _ByName) -> list[Any]:
     keys: list[Any] = []
     for place, (name, result) in enumerate(numbers.items()):
         middle = np.arange(4) + width * (place + 0.5) - 0.5 * _GROUP
-        style: dict[str, Any] = {
-            "facecolor": LINES[place],
-            "edgecolor": "white",
-            "hatch": _HATCHES[place],
-        }
+        style: dict[str, Any] = {"facecolor": LINES[place], "hatch": _HATCHES[place]}
+        style["edgecolor"] = "white"
         ax.bar(middle, np.where(np.isfinite(result), result, 0.0), 0.94 * width, **style)
         if name in printed:
             ax.plot(middle, printed[name], **_PUBLISHED)

@@ -189,12 +189,9 @@ class Placing:
         if end in self.at:
             return self._closed(link, tail, axes)
         if link in self.wiring.taps and end not in self.postures:
-            others = [
-                e
-                for e in self.links
-                if e in self.wiring.taps and (e[0], e[2][0]) == (start, leaves)
-            ]
-            axes = axes @ _turn_about_x(_ASIDE[len(others) % len(_ASIDE)])
+            beside = [e for e in self.links if (e[0], e[2][0]) == (start, leaves)]
+            taps = {*beside}.intersection(self.wiring.taps)
+            axes = axes @ _turn_about_x(_ASIDE[len(taps) % len(_ASIDE)])
             self.note("taps, which only read light, are drawn dashed and aside")
         head = tail + self._lengths.get(link, self.unit) * axes[:, 2]
         self._stand(end, head, enters, axes @ _turn_about_z(self._azimuth(link)))
@@ -265,10 +262,8 @@ def _posture_in_space(element: Element, axes: dict[str, Numbers]) -> Posture:
     normal, across = turned.normal, turned.across
     leaves = [port for port in element.outputs if port in axes]
     if isinstance(element, ChainVertex):
-        normal, across = (
-            _normal_of_vertex(element, axes["in"], axes[leaves[0]][:, 2]),
-            axes[first][:, 0],
-        )
+        normal = _normal_of_vertex(element, axes["in"], axes[leaves[0]][:, 2])
+        across = axes[first][:, 0]
     elif normal is not None and usual.role != "plate" and "in" in axes and leaves:
         normal = _normal(element, leaves[0], axes["in"], axes[leaves[0]][:, 2])
     message = usual.told or len(axes) > 1
@@ -323,11 +318,8 @@ def _chain_points(element: Any) -> Numbers:
     """Return the points of the chain of a vertex, shape (m + 2, 3)."""
     chain = element.vertices
     if isinstance(chain, VerticesByAngles):
-        incidences, turns = (
-            [Operand(angle).numbers() for angle in angles]
-            for angles in (chain.incidences, chain.turns)
-        )
-        points = vertices_from_angles(incidences, turns)
+        both = chain.incidences, chain.turns
+        points = vertices_from_angles(*[[Operand(a).numbers() for a in row] for row in both])
         return points[::-1] if chain.backwards else points
     return np.asarray(Operand(chain).numbers(), float)
 
