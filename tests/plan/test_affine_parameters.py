@@ -161,9 +161,13 @@ def test_indices_materials_and_amplitudes_take_multiples():
 def test_numbers_that_belong_together_and_offsets_of_another_dimension_are_refused():
     with pytest.raises(op.ValueFault, match=r"stokes is 2 \* d, but takes several numbers"):
         op.Source(1.0, 2 * D)
-    with pytest.raises(op.ValueFault, match="offset of parameter 'd' is a length, but Interface"):
+    with pytest.raises(
+        op.ValueFault, match="parameter 'd' has an offset that is a length, but Interface"
+    ):
         op.Interface(1.5, D + "1 nm")
-    with pytest.raises(op.ValueFault, match="offset of parameter 'd' is an angle, but Attenuator"):
+    with pytest.raises(
+        op.ValueFault, match="parameter 'd' has an offset that is an angle, but Attenuator"
+    ):
         op.Attenuator(D + "1 deg")
 
 
