@@ -180,7 +180,7 @@ def test_a_class_of_ones_own_names_the_fields_that_change_their_sign():
         (op.MuellerElement(FOIL, azimuth=0.1), "mueller has an azimuth, which belongs to the link"),
         (op.Polarizer(A, op.Parameter("b")), "polarizer has an azimuth, which belongs to the link"),
         (op.MuellerElement(A), r"bind it first, path.bind\(a=...\)"),
-        (op.SpecularVertex(1.5, A, 1, reflections=1), r"bind them first, path.bind\(a=...\)"),
+        (op.SpecularVertex(1.5, A, 1, reflections=1), r"bind it first, path.bind\(a=...\)"),
         (
             op.RefractingVertex(1.5, POINTS, 1, outside=op.FOLLOWS),
             r"from the vertex .* \(FOLLOWS\)",

@@ -120,6 +120,18 @@ def bound_value(parameter: Parameter) -> Any:
     return parameter.placed(parameter.resolve(parameter.default).value)
 
 
+def value_back(owner: str, name: str, value: Any) -> Any:
+    """Return a value that is another on the way back, by no change of sign; it must be known."""
+    if not isinstance(value, Parameter):
+        return value
+    if not value.bound:
+        raise PathError(
+            f"{owner}.{name} is parameter '{value.name}', whose value is another on the way back; "
+            f"give a value, or bind it first, path.bind({value.name}=...)"
+        )
+    return bound_value(value)
+
+
 def vanishes(value: Any) -> bool:
     """Tell whether a value is known to be 0."""
     if type(value) is float:

@@ -98,9 +98,7 @@ class Element(Chainable):
     - ``couplings()``, which names a kernel for each way from an in-port to an out-port.
 
     An element that stands in space by its own values, as a vertex of a chain of points does,
-    says `self_placed`, and has three methods more: `own_frame`, the frame of each port;
-    `turn_from`, how light from such an element is turned on its way to this one; and
-    `fault_behind`, why light must not come from there.
+    says `self_placed`, and has three methods more: `own_frame`, `turn_from` and `fault_behind`.
 
     Attributes
     ----------
@@ -237,10 +235,8 @@ class Element(Chainable):
 
         Parameters
         ----------
-        port : str
-            The port.
-        frames : mapping of str to Frame
-            The world frames that ports have been given.
+        port, frames : str, mapping of str to Frame
+            The port, and the world frames that ports have been given.
 
         Returns
         -------
@@ -256,10 +252,8 @@ class Element(Chainable):
 
         Parameters
         ----------
-        owner : str
-            What sentences call the element.
-        frames : mapping of str to Frame
-            The world frames that ports have been given.
+        owner, frames : str, mapping of str to Frame
+            What sentences call the element, and the world frames that ports have been given.
 
         Returns
         -------
@@ -291,13 +285,7 @@ class Element(Chainable):
         return ""
 
     def couplings(self) -> tuple[Coupling, ...]:
-        """Return the ways light goes through; by default from ``in`` to ``out`` by `mueller_rows`.
-
-        Raises
-        ------
-        PathError
-            If the class says neither by `mueller_rows` nor by an own `couplings`.
-        """
+        """Return the ways light goes through; by default from ``in`` to ``out`` by `mueller_rows`."""
         if self._kernel is None:
             raise PathError(
                 f"element class {type(self).__name__} does not say what it does to light; "
@@ -323,20 +311,18 @@ class Element(Chainable):
         method : str, optional
             How Fresnel's equations are computed.
         frame_in, frame_out : Frame, optional
-            The world frames of the two ports, for an element that stands in space and has no
-            azimuth; one will do where light goes straight through.
+            The world frames of the two ports, for an element without azimuth; one will do where
+            light goes straight through. By default those that the element has by its values, or
+            the unit frame, turned by its azimuth.
 
         Returns
         -------
         Mueller
-            Between these frames, or those that the element has by its values: its azimuth turns
-            the unit frame.
 
         Raises
         ------
         PathError
-            If there is no such way through, a value is out of its domain, a parameter is
-            still open, or no light can be changed so and the class does not say so.
+            If there is no such way through, a parameter is still open, or a value is refused.
 
         Examples
         --------
@@ -356,10 +342,6 @@ class Element(Chainable):
 
         With an azimuth that turns it against what is before it, it stands in the frame that it
         leaves on the way there, and its axis turns by so much more.
-
-        Returns
-        -------
-        Element
 
         Raises
         ------

@@ -142,10 +142,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         *,
         method: str = "stable",
     ) -> npt.NDArray[np.float64]:
-        """Return the share of light that stays in each layer.
-
-        What enters a layer less what leaves it; with what is reflected and what is let through it
-        is all that came.
+        """Return the share of light that stays in each layer: what enters it less what leaves it.
 
         Parameters
         ----------
@@ -165,10 +162,8 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         ------
         PathError
             As `mueller` does.
-        LightError
-            If no light can have the Stokes vector.
-        ShapeError
-            If the light does not broadcast with the values of the stack.
+        LightError, ShapeError
+            If no light can have the Stokes vector, or it does not broadcast with the stack.
 
         Examples
         --------

@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 
-from optipath.elements.coupling import Coupling, bound_value, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of, value_back
 from optipath.elements.element import Element, with_values
-from optipath.errors import Cure, Fault, PathError, ValueFault
+from optipath.errors import Cure, Fault, ValueFault
 from optipath.kernels.catalog import MATRIX
 from optipath.light.decompositions import reciprocal, tolerance_for, tolerance_of
 from optipath.light.passive import are_passive, cure_of, problem_of
 from optipath.materials.quantities import Angle, Quantity, YesOrNo
 from optipath.values.domains import PhysicalDomain
 from optipath.values.operands import Operation
-from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -67,15 +66,7 @@ class MuellerElement(Element, kind="mueller"):
         PathError
             If the matrix is an open parameter, or the element has an azimuth.
         """
-        matrix = self.matrix
-        if isinstance(matrix, Parameter):
-            if not matrix.bound:
-                raise PathError(
-                    f"the matrix of {self.kind} is parameter '{matrix.name}', which is transposed "
-                    f"on the way back, and no parameter stands for that; give the matrix, or "
-                    f"bind it first, path.bind({matrix.name}=...)"
-                )
-            matrix = bound_value(matrix)
+        matrix = value_back(self.kind, "matrix", self.matrix)
         return with_values(super().reversed(), matrix=reciprocal(matrix))
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
 
-from optipath.elements.coupling import bound_value
 from optipath.errors import PathError, ValueFault, shown
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import cosine, sine
@@ -16,7 +15,6 @@ from optipath.materials.quantities import ANGLE, INCIDENCE, Quantity
 from optipath.values.arrays import array_of, check_broadcast, entries_of, read_only, same_fields
 from optipath.values.domains import Choice, Domain
 from optipath.values.jax_values import is_traced, namespace
-from optipath.values.parameters import Parameter
 from optipath.values.precision import held
 from optipath.values.use import stored_value
 
@@ -251,16 +249,8 @@ def pieces_of(count: int) -> Iterator[slice]:
         yield slice(start, min(start + _AT_ONCE, count))
 
 
-def vertices_back(owner: str, vertices: Any) -> Any:
+def vertices_back(vertices: Any) -> Any:
     """Return the points (..., m + 2, 3) of a chain from its end to its start."""
     if isinstance(vertices, VerticesByAngles):
         return replace(vertices, backwards=not vertices.backwards)
-    if isinstance(vertices, Parameter):
-        if not vertices.bound:
-            raise PathError(
-                f"the vertices of {owner} are parameter '{vertices.name}', whose points come in "
-                f"the other order on the way back; give the points, or bind them first, "
-                f"path.bind({vertices.name}=...)"
-            )
-        vertices = bound_value(vertices)
     return vertices[..., ::-1, :]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 import numpy as np
 
 from optipath.elements.boundary_media import MediaOfBoundary
-from optipath.elements.coupling import Coupling, numbers_of
+from optipath.elements.coupling import Coupling, numbers_of, value_back
 from optipath.elements.element import Element, with_values
 from optipath.elements.vertex_chain import (
     Bad,
@@ -111,7 +111,7 @@ class ChainVertex(MediaOfBoundary, Element):
 
     def reversed(self) -> Self:
         """Return the vertex in the chain from its end to its start, which must be known."""
-        vertices = vertices_back(self.kind, self.vertices)
+        vertices = vertices_back(value_back(self.kind, "vertices", self.vertices))
         place = self.in_chain.count + 1 - self.place
         return with_values(super().reversed(), vertices=vertices, place=place)
 
@@ -194,10 +194,6 @@ class Vertex(ChainVertex, kind="vertex"):
 
     refracts: ClassVar[bool] = True
 
-    index: Index
-    vertices: Vertices
-    place: Whole
-    outside: OutsideIndex = 1.0
     events: Events = field(kw_only=True)
     bad: Bad = "refuse"
 
@@ -293,10 +289,6 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     counted_by: ClassVar[str] = "reflections"
     mirrored: ClassVar[tuple[str, ...]] = ()
 
-    index: Index
-    vertices: Vertices
-    place: Whole
-    outside: OutsideIndex = 1.0
     reflections: Whole | None = None
     bad: Bad = "refuse"
 
@@ -345,9 +337,6 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     mirrored: ClassVar[tuple[str, ...]] = ()
 
     index: ClearIndex
-    vertices: Vertices
-    place: Whole
-    outside: OutsideIndex = 1.0
     count: Whole | None = None
     bad: Bad = "refuse"
 
