@@ -285,7 +285,7 @@ class Element(Chainable):
         return ""
 
     def couplings(self) -> tuple[Coupling, ...]:
-        """Return the ways light goes through; by default from ``in`` to ``out`` by `mueller_rows`."""
+        """Return the ways through; by default from ``in`` to ``out`` by `mueller_rows`."""
         if self._kernel is None:
             raise PathError(
                 f"element class {type(self).__name__} does not say what it does to light; "
