@@ -148,7 +148,9 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
         room //= size
     for name in reversed([*sizes]):
         if name not in results:
-            results[name] = _even(sizes[name], max(1, min(room, sizes[name])))
+            # As few and as equal parts as there can be.
+            parts = -(-sizes[name] // max(1, min(room, sizes[name])))
+            results[name] = -(-sizes[name] // parts)
             room //= results[name]
     return {name: results[name] for name in sizes}
 
@@ -171,9 +173,3 @@ def _sizes_by_name(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
     return results
-
-
-def _even(count: int, most: int) -> int:
-    """Return the size of as few and as equal parts as there can be."""
-    parts = -(-count // most)
-    return -(-count // parts)

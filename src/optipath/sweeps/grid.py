@@ -82,9 +82,6 @@ class SweepGrid:
         return results
 
 
-_IDLE = "nothing depends on it"
-
-
 @dataclass(frozen=True)
 class SweepAxis:
     """The values that one parameter takes in a sweep. Shapes: shown (count,); given (count,)."""
@@ -106,7 +103,7 @@ def sweep_axis(
 ) -> SweepAxis:
     """Return the axis of a parameter."""
     idle = isinstance(values, IdleValues)
-    message = _IDLE if idle else known[name].help
+    message = "nothing depends on it" if idle else known[name].help
     return SweepAxis(name, dimension or name, *values, message, idle)
 
 

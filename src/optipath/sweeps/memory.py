@@ -117,7 +117,11 @@ class DerivedVariable(BackendArray):
 
 
 def derived(quantity: LightQuantity, lights: tuple[SweptLight, ...]) -> Any:
-    """Return the data of a variable that is computed once, of what is asked for."""
+    """Return the data of a variable that is computed once, of what is asked for.
+
+    The wrappers have no public name, and xarray's page on new backends imports them like this. An
+    array of NumPy would be computed at once, one of Dask anew each time it is read.
+    """
     data: Any = indexing.LazilyIndexedArray(DerivedVariable(quantity, lights))
     data = indexing.CopyOnWriteArray(data)
     cached: Any = indexing.MemoryCachedArray

@@ -114,10 +114,12 @@ class BlockStore:
             self._check_record(record)
             if _MARKS not in self.group:
                 _make(self.group, job)
-            self._check_coords(job.coords)
-        except (OptipathError, OSError):
+            self._check_arrays(job)
+        except OptipathError:
             raise
-        except Exception:  # noqa: BLE001 - Zarr may raise anything
+        except Exception as fault:  # Zarr may raise anything.
+            if isinstance(fault, OSError) and not isinstance(fault, FileNotFoundError):
+                raise
             raise JobError(
                 f"the metadata of the store '{self.place}' are damaged; {_OTHER_PLACE}"
             ) from None
@@ -232,12 +234,15 @@ class BlockStore:
                 )
         raise JobError(f"the record of '{place}' is damaged; {_OTHER_PLACE}")
 
-    def _check_coords(self, coords: Mapping[str, WholeArray]) -> None:
-        """Refuse coordinates that are damaged, which no block writes again."""
-        for name, whole in coords.items():
+    def _check_arrays(self, job: BlockJob) -> None:
+        """Refuse lost arrays, and coordinates that are damaged, which no block writes again."""
+        damaged = sorted(job.arrays.keys() - self.arrays.keys())
+        for name, whole in job.coords.items():
             there, given = _read(self.arrays[name], ...), whole.values
             if there is None or there.dtype != given.dtype or there.tobytes() != given.tobytes():
-                raise JobError(f"'{name}' of the store '{self.place}' is damaged; {_OTHER_PLACE}")
+                damaged.append(name)
+        if damaged:
+            raise JobError(f"'{damaged[0]}' of the store '{self.place}' is damaged; {_OTHER_PLACE}")
 
     @contextmanager
     def _writing(self) -> Iterator[None]:

@@ -59,14 +59,13 @@ def propagate(
     """Return the light of a path with its uncertainty; see `PathGraph.propagate`."""
     plan = path.compose()
     check_named("propagate", unnamed, plan.inputs.open)
-    if clashes := [name for name in plan.inputs.open if name in OPTIONS]:
-        raise ParameterError(
-            *(
-                f"'{name}' is an option of propagate() and a parameter of this path; "
-                f"path.bind({name}=...) gives the parameter its value"
-                for name in clashes
-            )
-        )
+    if clashes := [
+        f"'{name}' is an option of propagate() and a parameter of this path; path.bind({name}=...) "
+        f"gives the parameter its value"
+        for name in plan.inputs.open
+        if name in OPTIONS
+    ]:
+        raise ParameterError(*clashes)
     exact, uncertain, faults = _read_all(plan.inputs, arguments)
     # A value whose uncertainty cannot be read is one of them all the same.
     names = [n for n, value in arguments.items() if isinstance(value, tuple) and n not in exact]
