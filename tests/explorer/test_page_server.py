@@ -60,8 +60,8 @@ def test_the_units_are_those_of_the_library_and_the_page_has_no_table_of_its_own
     }
     for name, unit in UNITS.items():
         assert served[name]["size"] == pytest.approx(unit.size * 10.0**unit.power), name
-    code = page_files()["page/units.js"].content.decode()
-    assert "useUnits(" in page_files()["page/main.js"].content.decode()
+    code = page_files()["page/units.js"][1].decode()
+    assert "useUnits(" in page_files()["page/main.js"][1].decode()
     assert [name for name in UNITS if re.search(rf"\b{re.escape(name)}\W*:", code)] == []
 
 

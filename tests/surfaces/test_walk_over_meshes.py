@@ -22,8 +22,7 @@ from uncompiled import uncompiled
 
 pytest.importorskip("numba")
 
-from optipath.surfaces.walk import mesh_hit as entry_walk
-from optipath.surfaces.walk import mesh_hit as walk
+from optipath.surfaces.walk import compiled as walk
 from optipath.surfaces.walk.beam import beam_of
 from optipath.surfaces.walk.facets import LOWER, NO_FACET, UPPER, uniform
 
@@ -95,7 +94,7 @@ def test_the_numbers_are_those_of_numpy(seed):
     assert state.tolist() == stream.state["state"]["state"].tolist()
 
 
-mesh_entry = uncompiled(entry_walk.mesh_entry)
+mesh_entry = uncompiled(walk.mesh_entry)
 TENT = [[0.0, 1.0, 0.5], [0.0, 0.5, 0.0], [0.0, 0.0, -1.0]]
 
 
@@ -223,7 +222,7 @@ def outcome_of(field, start, direction, side, cell=None, own=NO_FACET):
     column, line = cell or (min(int(x), field.cells[0] - 1), min(int(y), field.cells[1] - 1))
     meshes, ray = tuple(packed_meshes([field])), (z, dx, dy, dz)
     with np.errstate(all="ignore"):
-        outcome, t, *_ = mesh_hit(meshes, 0, x, y, ray, side, column, line, own)
+        outcome, t, *_ = mesh_hit(meshes, 0, (x, y), ray, side, (column, line), own)
     return outcome, float(t)
 
 

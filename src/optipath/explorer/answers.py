@@ -33,13 +33,7 @@ _ODD = re.compile(r"[^A-Za-z0-9_-]+")
 
 
 class PageAnswers:
-    """What answers the page; one request after the other, since plans are shared.
-
-    >>> from optipath.explorer.paths import ExploredPresets
-    >>> answers = PageAnswers(ExploredPresets("malus"))
-    >>> answers.trace({"preset": "malus", "values": {"angle": "60"}})["detectors"]["eye"]["texts"]
-    ['0.125', '-0.0625', '0.108253', '0']
-    """
+    """What answers the page; one request after the other, since plans are shared."""
 
     def __init__(self, presets: ExploredPresets) -> None:
         self._presets = presets

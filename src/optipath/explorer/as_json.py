@@ -143,12 +143,7 @@ def link_as_json(name: str, start: str, end: str, light: Light) -> dict[str, Any
 
 
 def poincare(light: Light) -> list[float] | None:
-    """Return (S1, S2, S3) over S0, a point within the sphere; None where there is none.
-
-    >>> import optipath as op
-    >>> poincare(op.Light([2.0, 1.0, 0.0, 1.0])), poincare(op.Light([0.0, 0.0, 0.0, 0.0]))
-    ([0.5, 0.0, 0.5], None)
-    """
+    """Return (S1, S2, S3) over S0, a point within the sphere; None where there is none."""
     point = np.asarray(light.normalized, float)[1:]
     return (point + 0.0).tolist() if np.isfinite(point).all() else None
 

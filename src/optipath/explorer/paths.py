@@ -103,12 +103,7 @@ _CACHED = 48
 
 
 class ExploredPresets:
-    """The paths that the page may open, read and composed once.
-
-    >>> presets = ExploredPresets("malus")
-    >>> presets.opened, presets.explored("malus", {}).detectors
-    ('malus', ('eye',))
-    """
+    """The paths that the page may open, read and composed once."""
 
     def __init__(self, opened: str = FIRST) -> None:
         self._descriptions = preset_descriptions()

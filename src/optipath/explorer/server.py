@@ -12,7 +12,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib.resources import files
 from secrets import compare_digest, token_urlsafe
 from socketserver import TCPServer
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from optipath.errors import OptipathError, ParameterError, printable
 
@@ -101,9 +101,8 @@ class PageHandler(BaseHTTPRequestHandler):
         if place is None:
             return
         self.close_connection = self.close_connection or "Content-Length" in self.headers
-        file = page_files().get(place)
-        if file is not None:
-            self._send(HTTPStatus.OK, file.kind, file.content)
+        if file := page_files().get(place):
+            self._send(HTTPStatus.OK, *file)
         elif place == _PRESETS:
             self._send_json(self.server.answers.presets())
         elif place in _ROUTES:
@@ -214,21 +213,14 @@ _TYPES = {
 }
 
 
-class PageFile(NamedTuple):
-    """A file of the page."""
-
-    kind: str
-    content: bytes
-
-
 @cache
-def page_files() -> dict[str, PageFile]:
-    """Return the files by the name under which they are asked for."""
+def page_files() -> dict[str, tuple[str, bytes]]:
+    """Return the kind and the content of files, by the name under which they are asked for."""
     results = {}
     for file in files("optipath.explorer").joinpath("page").iterdir():
         if kind := _TYPES.get("." + file.name.rpartition(".")[2]):
             name = "" if file.name == "index.html" else f"page/{file.name}"
-            results[name] = PageFile(kind, file.read_bytes())
+            results[name] = kind, file.read_bytes()
     return results
 
 

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.surfaces.sample import Sample
-    from optipath.surfaces.walk.beam import PhotonBeam, WalkedBlock
+    from optipath.surfaces.walk.beam import PhotonBeam
 
 
 _AIM = 1.1
@@ -254,16 +254,13 @@ class EnergyRun:
         walked = walked_in_order(self.beam, todo, photons, self.threads, self.beam.block)
         with closing(walked):
             for block in walked:
-                self._add(block)
+                for surface, sums in block.sums.items():
+                    missing = surface + 1 - len(self._sums)
+                    self._sums += [np.zeros_like(sums) for _ in range(missing)]
+                    self._sums[surface] += sums
+                self.blocks, self.photons = self.blocks + 1, self.photons + block.photons
                 if progress is not None:
                     progress(self.photons, photons)
-
-    def _add(self, walked: WalkedBlock) -> None:
-        for surface, sums in walked.sums.items():
-            missing = surface + 1 - len(self._sums)
-            self._sums += [np.zeros_like(sums) for _ in range(missing)]
-            self._sums[surface] += sums
-        self.blocks, self.photons = self.blocks + 1, self.photons + walked.photons
 
     @property
     def energy(self) -> Energy:

@@ -17,7 +17,7 @@ from optipath.materials.material import Material
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.sensor import pixel_points
-from optipath.surfaces.sample_layers import depends_on_wavelength
+from optipath.surfaces.sample import depends_on_wavelength
 from optipath.values.arrays import check_broadcast, first_place
 from optipath.values.domains import Domain
 from optipath.values.jax_values import check_known, is_traced, namespace
@@ -192,16 +192,10 @@ def reflected_once(
     comes = Mueller(np.eye(4), beam.frame, beam.frame)
     lights = indices.n.size
     total = np.zeros((*(2 * [seen.sensor.pixels]), lights, 4, 4))
+    model: dict[str, Any] = {"outside": indices.outside, "alpha_y": alpha[1], "masking": masking}
     for directions, areas in pixel_points(seen.sensor, points):
-        result = single_scattering(
-            below,
-            alpha[0],
-            beam.frame.z,
-            directions[:, :, np.newaxis],
-            outside=indices.outside,
-            alpha_y=alpha[1],
-            masking=masking,
-        )
+        outgoing = directions[:, :, np.newaxis]
+        result = single_scattering(below, alpha[0], beam.frame.z, outgoing, **model)
         weight = (areas * directions[..., 2])[..., np.newaxis, np.newaxis, np.newaxis]
         total += (result @ comes).matrix * weight
     return total

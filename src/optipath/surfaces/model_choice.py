@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
@@ -20,9 +21,8 @@ from optipath.values.precision import real_number, whole_number
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.surfaces.hemisphere.beam import PartSums
+    from optipath.surfaces.hemisphere.hemisphere import Hemisphere
     from optipath.surfaces.sample import Sample
-    from optipath.values.precision import Numbers
 
 
 _EXIT = np.radians(80.0)
@@ -103,9 +103,9 @@ def decide(
         return ModelChoice(model, tolerance, (), smooth, None, None, None, tuple(evidence))
     if len(sample.layers) > 1 and side == "reflected":
         evidence.append(_exit_evidence(sample, angle, wavelengths))
-    walked = {"photons": photons, "wavelengths": wavelengths, "sensor": sensor, **light}
-    walked |= {"threads": threads, "progress": progress}
-    found = measure(sample, angle, **walked)
+    light |= {"photons": photons, "wavelengths": wavelengths, "sensor": sensor}
+    walk = partial(measure, sample, angle, threads=threads, progress=progress, **light)
+    found = walk()
     scalar_light, pixels = found.scalar_light(found.side(side)), found.sensor.pixels
     counts = mask.bright(scalar_light)
     if not counts.any():
@@ -115,48 +115,31 @@ def decide(
             f"has {brightest:.3g} times the mean, and brighter_than is {mask.brighter_than:g}; "
             f"walk more photons, or give a smaller brighter_than, such as 0.2"
         )
-    evidence.append(
-        f"{found.photons:,} photons, {pixels} x {pixels} pixels, of which {counts.sum()} count: "
-        f"{mask}"
-    )
+    of = f"{found.photons:,} photons, {pixels} x {pixels} pixels, of which {counts.sum()} count"
+    evidence.append(f"{of}: {mask}")
     single: bool | None = False
     multiple = apart = None
     if reason := _beyond_the_model(sample, side):
         evidence.append(f"single scattering: {reason}")
     else:
-        once = measure(sample, angle, **walked, polarized="scalar", events=1)
-        sums = np.concatenate([each.own.sums[..., -1:] for each in (found, once)], axis=-1)
-        multiple = _largest(
-            found.own._replace(sums=sums), lambda each: 1.0 - each[..., 1] / each[..., 0], counts
-        )
-        facets = found.single_scattering().values[..., 0, 0]
-        apart = _largest(
-            found.own, lambda each: facets / found.matrices(each)[:1, ..., 0, 0] - 1.0, counts
-        )
+        once = walk(polarized="scalar", events=1)
+        multiple, apart = _single_scattering(found, once, counts)
         single = apart.within(tolerance)
-        evidence.append(
-            f"of a pixel's light at most {multiple} has met the surface more than once, noise "
-            f"taken in"
-        )
-        how = "the analytic model is off all light of a pixel at most"
-        evidence.append(f"{how} by {apart}{_VERDICTS[single]}")
+        met, off = "has met the surface more than once", "is off all light of a pixel at most by"
+        evidence += [
+            f"of a pixel's light at most {multiple} {met}, noise taken in",
+            f"the analytic model {off} {apart}{_VERDICTS[single]}",
+        ]
     relative = found.relative_difference(side, brighter_than=mask.brighter_than)
     difference = LargestOf.of(relative.values[counts], relative.se.values[counts])
     scalar = difference.within(tolerance)
-    evidence.append(
-        f"polarisation changes the light of a pixel at most by {difference}{_VERDICTS[scalar]}"
-    )
+    change = f"at most by {difference}{_VERDICTS[scalar]}"
+    evidence.append(f"polarisation changes the light of a pixel {change}")
     suffices = {"single-scattering": single, "scalar": scalar}
-    return ModelChoice(
-        next((name for name, is_enough in suffices.items() if is_enough), "polarized"),
-        tolerance,
-        () if single else tuple([name for name, known in suffices.items() if known is None]),
-        smooth,
-        difference[:2],
-        multiple and multiple[:2],
-        apart and apart[:2],
-        tuple(evidence),
-    )
+    model = next((name for name, is_enough in suffices.items() if is_enough), "polarized")
+    undecided = [name for name, enough in suffices.items() if enough is None and not single]
+    known = difference[:2], multiple and multiple[:2], apart and apart[:2]
+    return ModelChoice(model, tolerance, tuple(undecided), smooth, *known, tuple(evidence))
 
 
 _VERDICTS = {
@@ -179,12 +162,16 @@ def _exit_evidence(sample: Sample, incidence: float, wavelengths: Any) -> str:
     )
 
 
-def _largest(
-    sums: PartSums, result: Callable[[Numbers], Numbers], counts: npt.NDArray[np.bool_]
-) -> LargestOf:
-    """Return the largest of what follows from the reflected light of pixels that count."""
-    value, error = sums.estimate(result)
-    return LargestOf.of(value[0][counts], error[0][counts])
+def _single_scattering(
+    found: Hemisphere, once: Hemisphere, counts: npt.NDArray[np.bool_]
+) -> tuple[LargestOf, LargestOf]:
+    """Return the share of light after several events, and how far the analytic model is off."""
+    sums = np.concatenate([each.own.sums[..., -1:] for each in (found, once)], axis=-1)
+    several = found.own._replace(sums=sums).estimate(lambda each: 1.0 - each[..., 1] / each[..., 0])
+    facets = found.single_scattering().values[..., 0, 0]
+    off = found.own.estimate(lambda each: facets / found.matrices(each)[:1, ..., 0, 0] - 1.0)
+    one, other = (LargestOf.of(each[0][0][counts], each[1][0][counts]) for each in (several, off))
+    return one, other
 
 
 def _beyond_the_model(sample: Sample, side: str) -> str:

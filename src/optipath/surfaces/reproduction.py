@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from os import PathLike
     from pathlib import Path
 
-    import xarray as xr
-
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 
 
@@ -72,17 +70,22 @@ class Experiment:
     photons: int = 1_000_000
 
 
+class Measured(NamedTuple):
+    """A number that has been measured."""
+
+    value: float
+    error: float
+    mask: str = ""
+    pixel: str = ""
+
+
 class Reproduced(NamedTuple):
-    """A published number, and the one that has been measured."""
+    """A published number, the measured one, and whether they agree: None of none published."""
 
     measurement: Measurement
     found: Measured
     photons: int
-
-    @property
-    def agrees(self) -> bool | None:
-        """Whether it is the published one; None where no number is published."""
-        return self.measurement.agrees(self.found.value, self.found.error)
+    agrees: bool | None
 
 
 def reproduce(
@@ -106,25 +109,16 @@ def reproduce(
     options = {"seed": seed, "threads": threads, "progress": progress}
     for walks in dict.fromkeys(one.walks for one in experiment.measurements):
         walked = Walked(experiment, walks, count, options)
-        for measurement in (one for one in experiment.measurements if one.walks == walks):
+        for one in (each for each in experiment.measurements if each.walks == walks):
             with warnings.catch_warnings():
                 if walks.cells is not None:  # A coarse mesh is what is looked at.
                     warnings.simplefilter("ignore", MeshWarning)
-                result = MEASURES[measurement.measure].of(walked, measurement)
-            yield Reproduced(measurement, result, count)
+                found = MEASURES[one.measure].of(walked, one)
+            yield Reproduced(one, found, count, one.agrees(found.value, found.error))
 
 
 ANY_AZIMUTH = 180.0
 """Within how many degrees of the plane of incidence all pixels are, on either side."""
-
-
-class Measured(NamedTuple):
-    """A number that has been measured."""
-
-    value: float
-    error: float
-    mask: str = ""
-    pixel: str = ""
 
 
 class Measure(NamedTuple):
@@ -137,7 +131,7 @@ class Measure(NamedTuple):
 
 
 def _share(name: str, walked: Walked, measurement: Measurement) -> Measured:
-    whole, share = walked.energy(measurement.stokes), name.removeprefix("scalar-")
+    share, whole = name.removeprefix("scalar-"), walked.energy(measurement.stokes)
     shares = whole if share == name else whole.scalar
     if share == "R+T":
         error = np.hypot(shares.absorbed_se, shares.lost_se)
@@ -147,7 +141,7 @@ def _share(name: str, walked: Walked, measurement: Measurement) -> Measured:
 
 def _largest(name: str, walked: Walked, measurement: Measurement) -> Measured:
     made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
-    result: xr.DataArray = made(brighter_than=measurement.brighter_than, noise=measurement.noise)
+    result = made(brighter_than=measurement.brighter_than, noise=measurement.noise)
     # The other side of the plane of incidence is its image.
     theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
     value = np.where(azimuth <= measurement.azimuth, result.values, np.nan)
@@ -163,10 +157,10 @@ def _largest(name: str, walked: Walked, measurement: Measurement) -> Measured:
 
 def _mirrored(name: str, walked: Walked, measurement: Measurement) -> Measured:
     """Return what is measured in the pixel towards which a mirror would send the light."""
-    hemisphere = walked.hemisphere
-    beam, sensor = hemisphere.seen.beam, hemisphere.sensor
+    hemisphere, sensor = walked.hemisphere, walked.hemisphere.sensor
+    beam = hemisphere.seen.beam
     at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
-    result: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
+    result = getattr(hemisphere, name)(measurement.stokes)
     value, error = (float(each[0, *at, 0]) for each in (result.values, result["se"].values))
     mask = f"the one of {sensor.pixels} x {sensor.pixels} pixels where a mirror sends the light"
     if name == "aop":
@@ -311,20 +305,12 @@ _FOLDER = presets_folder() / "experiments"
 
 
 def experiment_names() -> list[str]:
-    """Return the names of the experiments that come with the library, sorted.
-
-    >>> experiment_names()[0]
-    'wang-2017-figure-4'
-    """
+    """Return the names of the experiments that come with the library, sorted."""
     return names_in(_FOLDER)
 
 
 def load_experiment(experiment: str | PathLike[str]) -> Experiment:
-    """Return an experiment out of its file.
-
-    >>> print(load_experiment("wang-2017-table-1").source)
-    M. Wang et al., Optics Express 25(19), 2017, table 1
-    """
+    """Return an experiment out of its file."""
     see = "`optipath surface reproduce --list`"
     text, path = text_and_file(experiment, "experiment", _FOLDER, see)
     return described(text, path, _TOP, [*_NEEDED], partial(_experiment, str(experiment)))
@@ -333,7 +319,6 @@ def load_experiment(experiment: str | PathLike[str]) -> Experiment:
 _NEEDED = {"description": str, "source": str, "sample": str, "measurements": list}
 _TOP = {"format": int, **_NEEDED, "wavelengths": list, "photons": int, "sensor": int}
 _LIMITS = dict.fromkeys(("within", "brighter_than", "noise", "azimuth"), object)
-_BY_MEASURE = ("cells", "stokes", "brighter_than", "noise", "azimuth")
 _OF_ALL = {"measure": str, "text": str, "incidence": list}
 _MEASUREMENT = {**_OF_ALL, "published": list, "cells": int, "stokes": list, **_LIMITS}
 
@@ -345,19 +330,19 @@ def _experiment(name: str, document: dict[str, Any], folder: Path) -> Experiment
     more = {key: document[key] for key in ("photons", "sensor") if key in document}
     faults = Faults(fault for key, value in more.items() for fault in whole_number(key, value))
     named = document["sample"]  # By its name, or in a file beside that of the experiment.
-    where = folder / named if named.endswith(".toml") else named
-    sample = faults.attempt("sample", load_sample, where)
+    beside = folder / named if named.endswith(".toml") else named
+    sample = faults.attempt("sample", load_sample, beside)
     wavelengths = tuple(map(str, document.get("wavelengths", ())))
     if sample is not None:
         faults.attempt("wavelengths", sample.indices, [*wavelengths] or None)
     results: list[Measurement] = []
     for at, table in enumerate(document["measurements"]):
-        where = f"measurements[{at}]"
-        results += faults.attempt(where, _measurements, table, sample, wavelengths) or []
+        several = faults.attempt(f"measurements[{at}]", _measurements, table, sample, wavelengths)
+        results += several or []
     if faults or sample is None:
         raise SurfaceError(*dict.fromkeys(faults))
-    about = document["description"], document["source"], sample
-    return Experiment(name, *about, tuple(results), **more)
+    about = document["description"], document["source"]
+    return Experiment(name, *about, sample, tuple(results), **more)
 
 
 def _measurements(
@@ -369,12 +354,13 @@ def _measurements(
     stokes = tuple(table.get("stokes", UNPOLARISED))
     faults = Faults(unknown("measure", measure, MEASURES))
     if not faults:
+        known = {*_OF_ALL, "published", "within", *MEASURES[measure].takes}
         if len(wavelengths) > 1 and not MEASURES[measure].several:
             faults.append(f"measure '{measure}' is of one wavelength, not of {len(wavelengths)}")
         faults += [
             f"'{key}' is given, but measure '{measure}' does not depend on it; leave it out"
-            for key in _BY_MEASURE
-            if key in table and key not in MEASURES[measure].takes
+            for key in table
+            if key not in known
         ]
     for name in _LIMITS:
         largest = ANY_AZIMUTH if name == "azimuth" else float("inf")
@@ -389,7 +375,7 @@ def _measurements(
         else:
             faults.append(f'incidence: {shown(angle)} is no text; write one such as "60 deg"')
     numbers = table.get("published")
-    published: list[Any] = [_range(one) for one in numbers] if numbers else [None] * len(angles)
+    published: list[Any] = [*map(_range, numbers)] if numbers else [None] * len(angles)
     if len(published) != len(angles) or any(each and not each[0] <= each[1] for each in published):
         faults.append(
             f"published is {shown(numbers)}; write a number, or [LEAST, LARGEST], for each of the "
@@ -398,10 +384,10 @@ def _measurements(
     if faults:
         raise SurfaceError(*dict.fromkeys(faults))
     limits: dict[str, Any] = {name: float(table[name]) for name in _LIMITS if name in table}
-    walks = [Walks(angle, wavelengths, cells) for angle in angles]
+    about = {"text": table["text"], "stokes": stokes, **limits}
     return [
-        Measurement(measure, table["text"], each, number, stokes=stokes, **limits)
-        for each, number in zip(walks, published, strict=True)
+        Measurement(measure, walks=Walks(angle, wavelengths, cells), published=number, **about)
+        for angle, number in zip(angles, published, strict=True)
     ]
 
 
@@ -413,5 +399,5 @@ def _number(value: Any) -> float:
 
 def _range(published: Any) -> tuple[float, float]:
     is_pair = isinstance(published, list) and len(published) == 2
-    least, largest = published if is_pair else (published, published)
-    return _number(least), _number(largest)
+    least, largest = map(_number, published if is_pair else (published, published))
+    return least, largest

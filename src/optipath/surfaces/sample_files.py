@@ -19,8 +19,7 @@ from optipath.paths.files.schema import (
 from optipath.paths.files.values import decode, encode, references_in
 from optipath.paths.files.writer import toml_lines
 from optipath.surfaces.height_field import HeightField
-from optipath.surfaces.sample import Sample
-from optipath.surfaces.sample_layers import SampleLayer
+from optipath.surfaces.sample import Sample, SampleLayer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -45,11 +44,7 @@ def sample_names() -> list[str]:
 
 
 def sample_descriptions() -> dict[str, str]:
-    """Return what each sample that comes with the library is, by name, without making it.
-
-    >>> sample_descriptions()["glass-rough"]
-    'A rough face of glass, lit from the air'
-    """
+    """Return what each sample that comes with the library is, by name, without making it."""
     files = {name: _FOLDER / f"{name}.toml" for name in sample_names()}
     return {name: parsed(text_of(f, "sample"), str(f))["description"] for name, f in files.items()}
 

@@ -22,19 +22,12 @@ if TYPE_CHECKING:
 
     from optipath.elements.element import Element
     from optipath.surfaces.hemisphere.beam import SensedBeam
-    from optipath.surfaces.sample import Sample
-    from optipath.surfaces.sample_layers import SampleIndices
+    from optipath.surfaces.sample import Sample, SampleIndices
     from optipath.values.precision import Numbers
 
 
 def smooth_path(indices: SampleIndices, side: str) -> PathGraph:
-    """Return the path of unpolarized light by way of smooth interfaces; parameter ``incidence``.
-
-    >>> from optipath.surfaces.sample import Sample
-    >>> path = smooth_path(Sample([(1.5, 0.1), (2.4, 0.1)]).indices(), "reflected")
-    >>> print(path.trace(incidence="65 deg").intensity.round(5))
-    [0.16024]
-    """
+    """Return the path of unpolarized light by way of smooth interfaces; parameter ``incidence``."""
     base = np.ravel(indices.base)
     media: list[Any] = [indices.outside, *indices.inner, base if indices.opaque else base.real]
     return path_of_steps(Source(), [("sample", LayerStack(media, Parameter("incidence")), side)])
@@ -57,13 +50,7 @@ def path_of_steps(
 
 
 def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> float:
-    """Return (S0 - U) / U of unpolarized light that a smooth sample sends to one side.
-
-    >>> from optipath.surfaces.sample import Sample
-    >>> indices = Sample([(1.5, 0.1), (2.4, 0.1)]).indices()
-    >>> print(round(100.0 * smooth_difference(indices, "60 deg", "reflected"), 3))
-    -2.9
-    """
+    """Return (S0 - U) / U of unpolarized light that a smooth sample sends to one side."""
     result = np.ravel(polarization(smooth_path(indices, side), incidence=incidence).difference)
     return float(result[np.argmax(np.abs(result))])
 

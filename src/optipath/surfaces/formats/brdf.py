@@ -176,12 +176,7 @@ class LevelPixels:
 
 
 def level_frame(z: Numbers) -> Frame:
-    """Return the level frames of light along directions z (..., 3) above the horizon.
-
-    >>> print(level_frame(np.array([[0.0, 0.0, 1.0], [0.0, 0.6, 0.8]])).x)
-    [[ 0.   1.   0. ]
-     [ 0.   0.8 -0.6]]
-    """
+    """Return the level frames of light along directions z (..., 3) above the horizon."""
     x = _ACROSS - z[..., 1:2] / (1.0 + z[..., 2:]) * (z + _UP)
     return Frame.trusted(x, np.cross(z, x), z.copy())
 
@@ -218,11 +213,7 @@ def _unturned(sensor: Sensor, there: npt.NDArray[np.bool_]) -> Numbers:
 
 
 def each_wavelength(frame: Frame) -> Frame:
-    """Return frames of shape (n, 1) for matrices of (n, wavelengths).
-
-    >>> each_wavelength(level_frame(np.array([[0.0, 0.0, 1.0]]))).z.shape
-    (1, 1, 3)
-    """
+    """Return frames of shape (n, 1) for matrices of (n, wavelengths)."""
     return Frame.trusted(frame.x[:, None], frame.y[:, None], frame.z[:, None], frame.rounding)
 
 

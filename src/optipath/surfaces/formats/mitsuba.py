@@ -155,13 +155,10 @@ def _tensors(
         if noise is not None:
             errors[turn][there] = noise
     written = f"{description}\nwritten by optipath {version('optipath')}"
-    results: dict[str, npt.NDArray[Any]] = {
-        "description": np.frombuffer(written.encode(), np.uint8)
-    }
-    results["wvls"] = colours
-    results |= {name: each.astype(np.float32)[np.newaxis] for name, each in axes._asdict().items()}
+    text = np.frombuffer(written.encode(), np.uint8)
+    angles = {name: each.astype(np.float32)[np.newaxis] for name, each in axes._asdict().items()}
     measured = {"M00_se": errors} if isinstance(table, BrdfOfHemispheres) else {}
-    return {**results, "M": matrices, **measured}
+    return {"description": text, "wvls": colours, **angles, "M": matrices, **measured}
 
 
 @dataclass(frozen=True)

@@ -6,12 +6,13 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from optipath.errors import SurfaceError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    import xarray as xr
 
     from optipath.surfaces.hemisphere.beam import PixelMask
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 
 def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     """Return the Dataset of a hemisphere. Units: the result in radians."""
+    import xarray as xr  # noqa: PLC0415 - an extra
+
     sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
     results: dict[str, Any] = {}
     for name, (what, kinds) in _NUMBERS.items():
@@ -87,6 +90,8 @@ def difference_map(
     mask: PixelMask,
 ) -> xr.DataArray:
     """Return what is made of the relative differences of each pixel, wavelengths last."""
+    import xarray as xr  # noqa: PLC0415 - an extra
+
     at = hemisphere.side(side)
 
     def relative(light: Numbers) -> Numbers:
@@ -148,6 +153,8 @@ def pixel_array(
     **attributes: Any,
 ) -> xr.DataArray:
     """Return a value of each pixel and its error as an array with names."""
+    import xarray as xr  # noqa: PLC0415 - an extra
+
     value, error = result
     dims = (*PIXELS, *more)
     known = coordinates(hemisphere, dims)

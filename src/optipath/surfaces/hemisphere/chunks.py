@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.surfaces.sample_layers import Roughness
+    from optipath.surfaces.sample import Roughness
 
 
 LAYOUT = 2

@@ -120,10 +120,9 @@ def measure(
     faults += unknown("polarized", polarized, NUMBERS)
     faults += progress_faults(progress)
     pixels = faults.attempt("", Sensor.of, sensor)
-    place = faults.attempt("", store_argument, store, scheduler)
-    mirrors = (
-        None if symmetric is None else faults.attempt("", YES_OR_NO.check, "symmetric", symmetric)
-    )
+    place, mirrors = faults.attempt("", store_argument, store, scheduler), symmetric
+    if mirrors is not None:
+        mirrors = faults.attempt("", YES_OR_NO.check, "symmetric", mirrors)
     light: dict[str, Any] = {"wavelength": wavelengths, "seed": seed, "most_events": most_events}
     beam = beam_of(sample, incidence, azimuth, **light, others=faults)
     assert pixels is not None  # noqa: S101 - or a fault has been raised

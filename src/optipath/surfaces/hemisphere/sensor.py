@@ -181,10 +181,6 @@ def pixel_areas(pixels: int, cap: Callable[[Numbers], Numbers]) -> Numbers:
 
     By Green's theorem, the integral of (1 - cos theta) / r^2 (x dy - y dx) along the sides of the
     pixel within the disc, and its rim.
-
-    >>> print(pixel_areas(2, np.ones_like) / np.pi)
-    [[0.5 0.5]
-     [0.5 0.5]]
     """
     lines = np.linspace(-1.0, 1.0, pixels + 1)
     half_chord = np.sqrt(np.maximum(1.0 - lines**2, 0.0))[:, np.newaxis]

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
     from concurrent.futures import Future
 
-    from optipath.surfaces.sample_layers import SampleIndices
+    from optipath.surfaces.sample import SampleIndices
     from optipath.values.domains import Domain
 
 
@@ -191,11 +191,7 @@ def beam_of(
 
 
 def state_argument(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
-    """Return the Stokes vector (4,) of the light that falls on a sample.
-
-    >>> state_argument("source", [2, 1, 0, 0])
-    (2.0, 1.0, 0.0, 0.0)
-    """
+    """Return the Stokes vector (4,) of the light that falls on a sample."""
     faults = Faults()
     state: Any = faults.attempt("", _one, name, stokes, _STOKES.unphysical)
     if state is not None and not (state[0] > 0.0 and _STOKES.allows(np.array(state))):

@@ -1,4 +1,4 @@
-"""Compiled photon walk: many photons in a row, and sums over them."""
+"""Compiled photon walk: where a ray meets a mesh, many photons in a row, and sums over them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from math import cos, pi, sin
 from typing import TYPE_CHECKING, Any
 
 import numba as nb
+import numpy as np
 
 from optipath.kernels.carriers.carried import stokes_of
 from optipath.kernels.carriers.structures import ROTATION
@@ -13,14 +14,135 @@ from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.facets import (
     NO_FACET,
     compiled_kernel,
+    corners_of,
     facet_event,
+    facet_hit,
     facet_normal,
     uniform,
 )
-from optipath.surfaces.walk.mesh_hit import LEFT, LOST, MET, mesh_entry, mesh_hit
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import KernelFunction, Primitives
+
+
+MET, MISSED, LEFT, LOST = 0, 1, 2, 3
+"""A facet is met; none is; the ray has left the field at its side; it goes on for too long."""
+
+_MOST_STEPS = 1_000_000
+_FAR = 1e300
+"""In place of an infinite way, which times 0 is no number."""
+
+_FIRST_LEVEL = 3
+"""Where light from outside begins, which is high above most of the mesh."""
+
+
+@nb.njit(error_model="numpy")
+def mesh_hit(
+    meshes: Any, layer: int, start: Any, ray: Any, side: float, cell: Any, own: int
+) -> Any:
+    """Return what a ray meets of a mesh."""
+    wholes, numbers, heights, extremes = meshes
+    (z, dx, dy, dz), (x, y), (column, line) = ray, start, cell
+    about = layer * layout.WHOLES
+    across, down = wholes[about + layout.CELLS_X], wholes[about + layout.CELLS_Y]
+    top = wholes[about + layout.LEVELS]
+    first, periodic = wholes[about + layout.HEIGHTS], wholes[about + layout.PERIODIC] != 0
+    inverse_x, inverse_y = 1.0 / dx, 1.0 / dy
+    edge = numbers[layer * layout.NUMBERS + (layout.HIGH if side > 0.0 else layout.LOW)]
+    # Beyond this, nothing of the mesh is as high, or as low.
+    leaves = (edge - z) / dz if side * dz > 0.0 else np.inf
+    t, facet = 0.0, NO_FACET
+    level = 0 if own != NO_FACET else min(_FIRST_LEVEL, top)
+    for _ in range(_MOST_STEPS):
+        shift = layout.SHIFT * level
+        block_x, block_y = column >> shift, line >> shift
+        left, right = block_x << shift, min((block_x + 1) << shift, across)
+        front, back = block_y << shift, min((block_y + 1) << shift, down)
+        end_x = _reached(x, dx, inverse_x, left, right)
+        end_y = _reached(y, dy, inverse_y, front, back)
+        end = min(max(min(end_x, end_y), t), _FAR)
+        here, there = z + t * dz, z + end * dz
+        if level > 0:
+            row = ((across - 1) >> shift) + 1
+            place = wholes[about + layout.PYRAMID + level] + 2 * (block_y * row + block_x)
+            if _is_close(here, there, extremes[place], extremes[place + 1], side):
+                level -= 1
+                continue
+        else:
+            corners = corners_of(heights, first + line * (across + 1) + column, across + 1)
+            if _is_close(here, there, min(*corners), max(*corners), side):
+                span = t, end
+                facet, at = facet_hit(corners, x - column, y - line, ray, span, side, own)
+                if facet != NO_FACET:
+                    return MET, at, column, line, facet, x, y
+        own = NO_FACET
+        if end >= leaves:
+            return MISSED, leaves, column, line, NO_FACET, x, y
+        t = end
+        if end_x <= end_y:
+            column = right if dx > 0.0 else left - 1
+            line = min(max(int(np.floor(y + t * dy)), front), back - 1)
+        else:
+            line = back if dy > 0.0 else front - 1
+            column = min(max(int(np.floor(x + t * dx)), left), right - 1)
+        if column < 0 or column >= across or line < 0 or line >= down:
+            if not periodic:
+                return LEFT, t, column, line, NO_FACET, x, y
+            x, column = _wrapped(x, column, across)
+            y, line = _wrapped(y, line, down)
+        above = shift + layout.SHIFT
+        across_left = column >> above != block_x >> layout.SHIFT
+        if level < top and (across_left or line >> above != block_y >> layout.SHIFT):
+            level += 1
+    return LOST, t, column, line, NO_FACET, x, y
+
+
+@nb.njit(error_model="numpy")
+def _reached(start: float, rate: float, inverse: float, low: int, high: int) -> Any:
+    """Return where along one axis a ray leaves a block."""
+    if rate == 0.0:
+        return np.inf
+    return ((high if rate > 0.0 else low) - start) * inverse
+
+
+@nb.njit(error_model="numpy")
+def _is_close(here: float, there: float, low: float, high: float, side: float) -> Any:
+    """Return whether a ray between two heights may meet what is between two others."""
+    return min(here, there) <= high if side > 0.0 else max(here, there) >= low
+
+
+@nb.njit(error_model="numpy")
+def _wrapped(start: float, cell: int, cells: int) -> Any:
+    """Return the start of a ray, and its cell, moved by a period where the cell is beyond."""
+    if cell < 0:
+        return start + cells, cell + cells
+    if cell >= cells:
+        return start - cells, cell - cells
+    return start, cell
+
+
+@nb.njit(error_model="numpy")
+def mesh_entry(meshes: Any, layer: int, side: float, point: Any, k: Any, starts: Any) -> Any:
+    """Return where light gets to the height of a mesh's highest, or lowest, point."""
+    wholes, numbers = meshes[0], meshes[1]
+    about, sizes = layer * layout.WHOLES, layer * layout.NUMBERS
+    height = numbers[sizes + (layout.HIGH if side > 0.0 else layout.LOW)]
+    t = (height - point[2]) / k[2]
+    point = (point[0] + t * k[0], point[1] + t * k[1], height)
+    x = (point[0] + starts[2 * layer]) / numbers[sizes + layout.CELL_X]
+    y = (point[1] + starts[2 * layer + 1]) / numbers[sizes + layout.CELL_Y]
+    across, down = wholes[about + layout.CELLS_X], wholes[about + layout.CELLS_Y]
+    if wholes[about + layout.PERIODIC] != 0:
+        return True, point, _in_period(x, across), _in_period(y, down)
+    inside = (x >= 0.0) & (x < across) & (y >= 0.0) & (y < down)
+    return inside, point, x, y
+
+
+@nb.njit(error_model="numpy")
+def _in_period(x: float, cells: int) -> float:
+    x -= np.floor(x / cells) * cells
+    # Light that goes along the mesh comes from too far away to say, even from infinity.
+    return x if 0.0 <= x < cells else 0.0
 
 
 _MOST_MISSES = 100_000
@@ -53,7 +175,8 @@ def photon_block(
     keeps: int,
 ) -> int:
     """Follow photons into sums (OUTCOMES, MOST_COUNTED, count, SUMS), and their ends."""
-    meshes = wholes, numbers, heights, extremes
+    meshes, stack = (wholes, numbers, heights, extremes), (media, base, layers)
+    riding = lights, count, state
     number, misses = 0, 0
     while number < photons and misses < _MOST_MISSES:
         angle = azimuth if azimuth == azimuth else 2.0 * pi * uniform(state)  # noqa: PLR0124 - NaN
@@ -64,7 +187,7 @@ def photon_block(
         k, x = (sin_i * along, sin_i * across, -cos_i), (-across, along, 0.0)
         record[0] = number == wanted
         outcome, events, last_k, last_x = photon_walk(
-            meshes, media, base, layers, k, x, starts, lights, count, state, most, record
+            meshes, stack, k, x, starts, riding, most, record
         )
         misses += 1
         if outcome != layout.NEVER:
@@ -73,16 +196,12 @@ def photon_block(
             _add_up(lights, sums, count, layout.SUMS * count * place)
             if number == wanted:
                 record[layout.OUTCOME], record[layout.EVENTS] = outcome, events
-                put(record, layout.FIRST_K, k)
-                put(record, layout.FIRST_X, x)
-                put(record, layout.LAST_K, last_k)
-                put(record, layout.LAST_X, last_x)
+                put(record, layout.FIRST_K, k + x + last_k + last_x)
             if keeps != 0:
                 at = (layout.ENDS + layout.CARRIED * count) * number
                 ends[at + layout.OUTCOME], ends[at + layout.EVENTS] = outcome, events
                 ends[at + layout.AZIMUTH] = angle
-                put(ends, at + layout.END_K, last_k)
-                put(ends, at + layout.END_X, last_x)
+                put(ends, at + layout.END_K, last_k + last_x)
                 for place in range(layout.CARRIED * count):
                     ends[at + layout.END_LIGHTS + place] = lights[place]
             number += 1
@@ -124,24 +243,13 @@ def _add_up(lights: Any, sums: Any, count: int, place: int) -> None:
 
 @nb.njit(error_model="numpy")
 def photon_walk(
-    meshes: Any,
-    media: Any,
-    base: Any,
-    layers: int,
-    k: Any,
-    x: Any,
-    starts: Any,
-    lights: Any,
-    count: int,
-    state: Any,
-    most: int,
-    record: Any,
+    meshes: Any, stack: Any, k: Any, x: Any, starts: Any, riding: Any, most: int, record: Any
 ) -> Any:
     """Follow a photon: the nine steps of M. Wang et al., Optics Express 25(19), 2017.
 
     After a reflection it meets the mesh again, but for the facet it comes from, or the next mesh.
     """
-    wholes, numbers = meshes[0], meshes[1]
+    (wholes, numbers, _, _), (media, base, layers), (lights, count, state) = meshes, stack, riding
     layer, side, events = 0, 1.0, 0
     facet, column, line = NO_FACET, 0, 0
     point = 0.0, 0.0, numbers[layout.HIGH]
@@ -153,7 +261,7 @@ def photon_walk(
             line = min(int(v), wholes[about + layout.CELLS_Y] - 1)
         dx, dy = k[0] / numbers[sizes + layout.CELL_X], k[1] / numbers[sizes + layout.CELL_Y]
         outcome, t, column, line, facet, u, v = mesh_hit(
-            meshes, layer, u, v, (point[2], dx, dy, k[2]), side, column, line, facet
+            meshes, layer, (u, v), (point[2], dx, dy, k[2]), side, (column, line), facet
         )
         if outcome == MET:
             if events == most:
@@ -162,9 +270,8 @@ def photon_walk(
             u, v = u + t * dx, v + t * dy
             normal = facet_normal(meshes, layer, column, line, facet, side)
             above = side > 0.0
-            n1, n2 = media[layer + (not above)], media[layer + above]
-            before = k
-            reflected, k, x, plane = facet_event(k, x, normal, n1, n2, base, lights, count, state)
+            before, indices = k, (media[layer + (not above)], media[layer + above])
+            reflected, k, x, plane = facet_event(k, x, normal, indices, base, lights, count, state)
             events += 1
             if record[0] != 0.0:
                 at = layout.RECORD * events
@@ -172,12 +279,7 @@ def photon_walk(
                 record[at + layout.COLUMN], record[at + layout.LINE] = column, line
                 record[at + layout.FACET], record[at + layout.SIDE] = facet, side
                 record[at + layout.REFLECTED] = reflected
-                for place in range(5):
-                    record[at + layout.COS + place] = plane[place]
-                record[at + layout.N1], record[at + layout.N2] = n1, n2
-                put(record, at + layout.POINT, point)
-                put(record, at + layout.NORMAL, normal)
-                put(record, at + layout.DIRECTION, before)
+                put(record, at + layout.COS, plane + indices + point + normal + before)
             side = side if reflected else -side
             continue
         if outcome == LOST:
@@ -194,9 +296,10 @@ def photon_walk(
 
 
 @nb.njit(error_model="numpy")
-def put(record: Any, at: int, vector: Any) -> None:
-    """Write three numbers."""
-    record[at], record[at + 1], record[at + 2] = vector
+def put(record: Any, at: int, numbers: Any) -> None:
+    """Write numbers, one after the other."""
+    for place in range(len(numbers)):
+        record[at + place] = numbers[place]
 
 
 def _turned(xp: Primitives) -> KernelFunction:

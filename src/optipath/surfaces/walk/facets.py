@@ -65,29 +65,20 @@ def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float
         # A ray may start from one facet and go along the diagonal.
         cut = min(max(-apart / along, enters), leaves) if along != 0.0 else enters
     if own == NO_FACET:
-        t = _met(corners, u, v, ray, enters, cut, side, first)
+        t = _met(corners, u, v, ray, (enters, cut), side, first)
         if t >= 0.0:
             return first, t
     if first != last:
-        t = _met(corners, u, v, ray, cut, leaves, side, last)
+        t = _met(corners, u, v, ray, (cut, leaves), side, last)
         if t >= 0.0:
             return last, t
     return NO_FACET, 0.0
 
 
 @nb.njit(error_model="numpy")
-def _met(
-    corners: Any,
-    u: float,
-    v: float,
-    ray: Any,
-    enters: float,
-    leaves: float,
-    side: float,
-    facet: int,
-) -> Any:
+def _met(corners: Any, u: float, v: float, ray: Any, span: Any, side: float, facet: int) -> Any:
     """Return where a ray meets the plane of a facet between two places, or -1."""
-    z, dx, dy, dz = ray
+    (z, dx, dy, dz), (enters, leaves) = ray, span
     rise_x, rise_y = facet_gradient(corners, facet)
     rate = dz - (dx * rise_x + dy * rise_y)
     above = (z - corners[0]) - (u * rise_x + v * rise_y)
@@ -111,17 +102,10 @@ def facet_normal(meshes: Any, layer: int, column: int, line: int, facet: int, si
 
 @nb.njit(error_model="numpy")
 def facet_event(
-    k: Any,
-    x: Any,
-    normal: Any,
-    n1: float,
-    n2: float,
-    base: Any,
-    lights: Any,
-    count: int,
-    state: Any,
+    k: Any, x: Any, normal: Any, indices: Any, base: Any, lights: Any, count: int, state: Any
 ) -> Any:
     """Reflect a photon with probability (Rs + Rp) / 2, else refract it; divide by that share."""
+    n1, n2 = indices
     c, s, sx, sy, sz, cos2, sin2, rx, ry, rz = plane(*k, *x, *normal)
     if n2 == layout.OPAQUE:
         numbers = opaque_reflection(n1, base[0], base[1], c, s)
@@ -156,12 +140,7 @@ def _act(lights: Any, at: int, cos2: float, sin2: float, numbers: Any) -> None:
 def compiled_kernel(
     name: str, kernel: Callable[[Primitives], Callable[..., Sequence[Any]]], argument: int
 ) -> Any:
-    """Return a kernel as a function of Numba, common terms found once.
-
-    >>> from optipath.kernels.filters import align
-    >>> compiled_kernel("aligned", align, 2)(0.0, 1.0)
-    (-1.0, 0.0)
-    """
+    """Return a kernel as a function of Numba, common terms found once."""
     recorder = Recorder(np.dtype(float))
     inputs = [recorder.input(f"a{place}") for place in range(argument)]
     formula = Formula(recorder.dtype, tuple(kernel(SYMBOLIC)(*inputs)))
