@@ -106,10 +106,10 @@ def decide(
     light |= {"photons": photons, "wavelengths": wavelengths, "sensor": sensor}
     walk = partial(measure, sample, angle, threads=threads, progress=progress, **light)
     found = walk()
-    scalar_light, pixels = found.scalar_light(found.side(side)), found.sensor.pixels
-    counts = mask.bright(scalar_light)
+    light_there, pixels = found.scalar_light(found.side(side)), found.sensor.pixels
+    counts = mask.bright(light_there)
     if not counts.any():
-        brightest = np.nanmax(scalar_light) / (np.nanmean(scalar_light) or 1.0)
+        brightest = np.nanmax(light_there) / (np.nanmean(light_there) or 1.0)
         raise SurfaceError(
             f"no pixel counts: of {found.photons:,} photons the brightest pixel of {side} light "
             f"has {brightest:.3g} times the mean, and brighter_than is {mask.brighter_than:g}; "
@@ -125,16 +125,15 @@ def decide(
         once = walk(polarized="scalar", events=1)
         multiple, apart = _single_scattering(found, once, counts)
         single = apart.within(tolerance)
-        met, off = "has met the surface more than once", "is off all light of a pixel at most by"
+        off = "the analytic model is off all light of a pixel at most by"
         evidence += [
-            f"of a pixel's light at most {multiple} {met}, noise taken in",
-            f"the analytic model {off} {apart}{_VERDICTS[single]}",
+            f"of a pixel's light at most {multiple} {_AGAIN}, noise taken in",
+            f"{off} {apart}{_VERDICTS[single]}",
         ]
     relative = found.relative_difference(side, brighter_than=mask.brighter_than)
     difference = LargestOf.of(relative.values[counts], relative.se.values[counts])
     scalar = difference.within(tolerance)
-    change = f"at most by {difference}{_VERDICTS[scalar]}"
-    evidence.append(f"polarisation changes the light of a pixel {change}")
+    evidence.append(f"{_CHANGES} {difference}{_VERDICTS[scalar]}")
     suffices = {"single-scattering": single, "scalar": scalar}
     model = next((name for name, is_enough in suffices.items() if is_enough), "polarized")
     undecided = [name for name, enough in suffices.items() if enough is None and not single]
@@ -142,6 +141,8 @@ def decide(
     return ModelChoice(model, tolerance, tuple(undecided), smooth, *known, tuple(evidence))
 
 
+_CHANGES = "polarisation changes the light of a pixel at most by"
+_AGAIN = "has met the surface more than once"
 _VERDICTS = {
     True: ", noise taken in: less than the tolerance",
     False: ", noise taken in: more than the tolerance",
