@@ -17,8 +17,14 @@ import numpy as np
 
 from optipath.errors import OptipathError, SurfaceError, need, needing, shown
 from optipath.surfaces.height_field import HeightField
-from optipath.surfaces.hemisphere.arrays import PIXELS
-from optipath.surfaces.hemisphere.beam import NUMBERS, OF_BEAM, STATES, PartSums, SensedBeam
+from optipath.surfaces.hemisphere.beam import (
+    NUMBERS,
+    OF_BEAM,
+    PIXELS,
+    STATES,
+    PartSums,
+    SensedBeam,
+)
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 from optipath.surfaces.hemisphere.sensor import Sensor
 from optipath.surfaces.sample import Sample, SampleIndices

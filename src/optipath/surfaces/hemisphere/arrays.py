@@ -6,13 +6,13 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
 from optipath.errors import SurfaceError
+from optipath.surfaces.hemisphere.beam import PIXELS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-    import xarray as xr
 
     from optipath.surfaces.hemisphere.beam import PixelMask
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     """Return the Dataset of a hemisphere. Units: the result in radians."""
-    import xarray as xr  # noqa: PLC0415 - an extra
-
     sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
     results: dict[str, Any] = {}
     for name, (what, kinds) in _NUMBERS.items():
@@ -90,8 +88,6 @@ def difference_map(
     mask: PixelMask,
 ) -> xr.DataArray:
     """Return what is made of the relative differences of each pixel, wavelengths last."""
-    import xarray as xr  # noqa: PLC0415 - an extra
-
     at = hemisphere.side(side)
 
     def relative(light: Numbers) -> Numbers:
@@ -130,9 +126,6 @@ def difference_map(
     return xr.DataArray(value, coordinates(hemisphere, dims) | {"se": se}, dims, name, about)
 
 
-PIXELS = ("side", "y", "x", "wavelength")
-"""The dimensions of what is known of each pixel."""
-
 COMPONENTS = ("S0", "S1", "S2", "S3")
 
 FRAME = (
@@ -153,8 +146,6 @@ def pixel_array(
     **attributes: Any,
 ) -> xr.DataArray:
     """Return a value of each pixel and its error as an array with names."""
-    import xarray as xr  # noqa: PLC0415 - an extra
-
     value, error = result
     dims = (*PIXELS, *more)
     known = coordinates(hemisphere, dims)

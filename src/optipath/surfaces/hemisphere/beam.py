@@ -35,6 +35,9 @@ STATES = ((1.0, 0.0, 0.0, 0.0), (1.0, 1.0, 0.0, 0.0), (1.0, 0.0, 1.0, 0.0), (1.0
 """The states of the source that ride on one photon: between them they say its Mueller matrix."""
 
 
+PIXELS = ("side", "y", "x", "wavelength")
+"""The dimensions of what is known of each pixel."""
+
 _MATRIX = tuple(f"M{row}{column}" for row in range(4) for column in range(4))
 
 OF_BEAM = "cos", "sin", "azimuth", "seed", "most_events"

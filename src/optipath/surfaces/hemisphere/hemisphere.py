@@ -17,11 +17,6 @@ from optipath.light.light import Light
 from optipath.light.quantities import DERIVED
 from optipath.materials.quantities import ANGLE
 from optipath.surfaces.facet_model import alpha_of, frame_along, reflected_once
-from optipath.surfaces.hemisphere.arrays import (
-    difference_map,
-    hemisphere_dataset,
-    pixel_array,
-)
 from optipath.surfaces.hemisphere.beam import PixelMask
 from optipath.surfaces.walk.beam import UNPOLARISED, state_argument
 from optipath.values.angles import warn
@@ -104,7 +99,7 @@ class Hemisphere:
     @cached_property
     def dataset(self) -> xr.Dataset:
         """All of it with names, units and standard errors: see `hemisphere_dataset`."""
-        return hemisphere_dataset(self)
+        return _arrays().hemisphere_dataset(self)  # type: ignore[no-any-return]
 
     @property
     def sensor(self) -> Sensor:
@@ -156,10 +151,10 @@ class Hemisphere:
         area = (self.sensor.solid_angle * np.cos(self.sensor.theta))[:, :, np.newaxis]
         if not polarized:
             value, error = (each / area for each in self.scalar)
-            return pixel_array(self, "brdf", (value, error), "BRDF without polarisation", "1/sr")
+            return self._array("brdf", (value, error), "BRDF without polarisation", "1/sr")
         value, error = (each / area[..., np.newaxis, np.newaxis] for each in self.mueller)
         what = "Mueller matrix of the BRDF"
-        return pixel_array(self, "brdf", (value, error), what, "1/sr", ("out", "in"))
+        return self._array("brdf", (value, error), what, "1/sr", ("out", "in"))
 
     def stokes(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
         """Return the Stokes vector of the light that goes into each pixel, in its frame.
@@ -177,7 +172,7 @@ class Hemisphere:
         state = np.array(state_argument("source", source))
         result = self.own.estimate(lambda light: self.matrices(light) @ state)
         what = "Stokes vector of the light that goes into the pixel"
-        return pixel_array(self, "stokes", result, what, "1", ("out",), source=state)
+        return self._array("stokes", result, what, "1", ("out",), source=state)
 
     def dop(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
         """Return the degree of polarisation of each pixel; NaN where no light falls.
@@ -258,7 +253,7 @@ class Hemisphere:
             raise SurfaceError(*faults)
         result = reflected_once(self.seen, alpha, masking, int(points))[np.newaxis]
         what = "Mueller matrix of light that is reflected once, by the analytic model"
-        return pixel_array(self, "single_scattering", (result, None), what, "1", ("out", "in"))
+        return self._array("single_scattering", (result, None), what, "1", ("out", "in"))
 
     def relative_difference(
         self, side: str = "reflected", *, brighter_than: float = 0.2
@@ -285,7 +280,7 @@ class Hemisphere:
         ('y', 'x', 'wavelength')
         """
         mask, told = PixelMask(brighter_than, None), "(S0 - U) / U"
-        return difference_map(self, "relative_difference", told, np.asarray, side, mask)
+        return self._difference("relative_difference", told, np.asarray, side, mask)
 
     def adm(
         self,
@@ -342,9 +337,7 @@ error at most 0.2 of the difference, or at most 0.001
         """
         told = "mean of |S0 - U| / U over wavelengths"
         mask = PixelMask(brighter_than, noise, known_to)
-        return difference_map(
-            self, "adm", told, lambda each: np.abs(each).mean(axis=-1), side, mask
-        )
+        return self._difference("adm", told, lambda each: np.abs(each).mean(axis=-1), side, mask)
 
     def mdm(
         self,
@@ -368,7 +361,7 @@ error at most 0.2 of the difference, or at most 0.001
         """
         told = "largest |S0 - U| / U over wavelengths"
         mask = PixelMask(brighter_than, noise, known_to)
-        return difference_map(self, "mdm", told, lambda each: np.abs(each).max(axis=-1), side, mask)
+        return self._difference("mdm", told, lambda each: np.abs(each).max(axis=-1), side, mask)
 
     def toward(
         self, direction: Any, side: str = "reflected", wavelength: Any = None
@@ -600,7 +593,13 @@ error at most 0.2 of the difference, or at most 0.001
                 lambda light: np.remainder(value(light) - whole + period / 2.0, period)
             )
         name = quantity.variable.lower()
-        return pixel_array(self, name, (whole, error), quantity.name, quantity.unit, source=state)
+        return self._array(name, (whole, error), quantity.name, quantity.unit, source=state)
+
+    def _array(self, *arguments: Any, **attributes: Any) -> xr.DataArray:
+        return _arrays().pixel_array(self, *arguments, **attributes)  # type: ignore[no-any-return]
+
+    def _difference(self, *arguments: Any) -> xr.DataArray:
+        return _arrays().difference_map(self, *arguments)  # type: ignore[no-any-return]
 
     def _toward(self, direction: Any, side: str, wavelength: Any) -> PartSums:
         """Return the sums over the pixels of each direction."""
@@ -628,6 +627,12 @@ error at most 0.2 of the difference, or at most 0.001
         of = f"{beam.sample!r} at {np.degrees(beam.incidence):.4g} deg"
         known = f"{self.photons} photons" if self.photons else "known without photons"
         return f"Hemisphere of {of}, {pixels} x {pixels} pixels, {known}"
+
+
+def _arrays() -> Any:
+    from optipath.surfaces.hemisphere import arrays  # noqa: PLC0415 - an extra
+
+    return arrays
 
 
 def _missing(what: str, kind: str) -> str:
