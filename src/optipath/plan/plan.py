@@ -228,7 +228,7 @@ class Plan:
             first, last = next(iter(self.whole.sources)), next(iter(self.whole.readings))
             raise ParameterError(
                 f"{min(misplaced)} is given by its place: mueller(source, detector), such as "
-                f"mueller({first!r}, {last!r})"
+                f"mueller('{first}', '{last}')"
             )
         program = self.whole
         begin = only("source", tuple(program.sources), "mueller(source, detector)", source)
