@@ -137,6 +137,10 @@ def test_a_path_back_and_forth_is_the_same_in_every_place_of_a_node():
     path.connect("foil", "split.back", azimuth=0.5)
     assert path.reversed().loops == "sum"
     assert_same(path)
+    for place in ("lamp", "between", "eye"):
+        chosen = placed().bind(place=place).mueller().reversed()
+        found = placed().reversed().bind(place=place).mueller()
+        np.testing.assert_allclose(found.matrix, chosen.matrix, atol=1e-15)
     path = placed(azimuth=0.4)
     path.cases["one"] = op.Case({"place": "eye"})
     assert ({**path.reversed().choices}, path.reversed().cases) == ({}, {})

@@ -429,9 +429,9 @@ class PathGraph(Chainable):
         Each element is met from the other side, in mirrored frames (x, -y, -z); sources are
         detectors there, and detectors sources. What each link turns stays the same, and links say
         it, and not elements. Parameters, defaults and cases stay, but for what is published;
-        values of the sources go with them, and what is chosen stays chosen.
-        ``path.reversed().mueller()`` is ``path.mueller().reversed()``, unless there is a magnetic
-        field (Sekera, J. Opt. Soc. Am. 56, 1732 (1966)).
+        values of the sources go with them, and what is chosen stays chosen where a turn stands
+        beside a place. ``path.reversed().mueller()`` is ``path.mueller().reversed()``, unless there
+        is a magnetic field (Sekera, J. Opt. Soc. Am. 56, 1732 (1966)).
 
         Parameters
         ----------
@@ -459,9 +459,10 @@ class PathGraph(Chainable):
         """
         path = self._with(reversed_graph(self._graph, source))
         path.cases = {}
+        known = {*path.parameters, *path.choices}
         for name, case in self.cases.items():
-            left = {n: value for n, value in case.values.items() if n in path.parameters}
-            if self.choices.keys().isdisjoint(case.values):
+            left = {n: value for n, value in case.values.items() if n in known}
+            if not (self.choices.keys() - known).intersection(case.values):
                 path.cases[name] = replace(case, values=left, published={})
         return path
 

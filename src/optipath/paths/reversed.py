@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import networkx as nx
@@ -18,13 +19,15 @@ from optipath.elements.element import Element
 from optipath.elements.ends import Detector, Dump, Source
 from optipath.errors import OptipathError, PathError, did_you_mean, listed, shown, there_are
 from optipath.kernels.kernel import called
+from optipath.paths.editing import find_port
 from optipath.values.arrays import changed, same
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from optipath.composer.wiring import Link, Port
     from optipath.light.frame import Frame
+    from optipath.paths.binding import PlaceChoice
 
 
 _SAME = 1e-9
@@ -41,7 +44,8 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
     turning.reverse_elements(sources)
     if faults := [*faults, *turning.faults, *turning.link_faults()]:
         raise PathError(*faults)
-    result = nx.MultiDiGraph(**{**graph.graph, "choices": {}})
+    choices = reversed_choices(turning.wiring, turning.port)
+    result = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
     for name in [*graph][::-1]:
         result.add_node(name, element=turning.elements[name], frames=turning.frames(name))
     for link in [*graph.edges(keys=True)][::-1]:
@@ -184,6 +188,47 @@ def _reversed(element: Element) -> Element:
     if not isinstance(back, Element):
         raise PathError(f"{what} gives {shown(back)}; return an element")
     return back
+
+
+def reversed_choices(
+    wiring: Wiring, port_back: Callable[[str, str], str]
+) -> dict[str, PlaceChoice]:
+    """Return the choices of a path that stay the same choices on the way back.
+
+    They do if nothing turns between the ports beside a place: a node has the frame of its arrival.
+    """
+    choices: dict[str, PlaceChoice] = wiring.graph.graph["choices"]
+    movable = {choice.node for choice in choices.values()}
+    results = {}
+    for name, choice in choices.items():
+        ports = [_next_port(wiring, choice.node, port) for port in choice.behind.values()]
+        behind = {
+            word: f"{port[0]}.{port_back(*port)}"
+            for word, port in zip(choice.behind, ports, strict=True)
+            if port is not None and port[0] not in movable
+        }
+        if len(behind) == len(ports):
+            results[name] = replace(choice, behind=behind)
+    return results
+
+
+def _next_port(wiring: Wiring, node: str, behind: str) -> Port | None:
+    """Return the port that comes behind a place of a node; None where something is turned."""
+    try:
+        port = find_port(wiring.graph, behind, out=True)
+    except PathError:
+        return None
+    if frame_at(wiring, *port) is not None:
+        return None
+    while len(links := wiring.links_from.get(port, [])) == 1:
+        (link,) = links
+        if not is_zero(azimuth_of(wiring, link)):
+            return None
+        _, end, (_, enters) = link
+        if end != node:
+            return end, enters
+        port = node, wiring.elements[node].natural
+    return None
 
 
 def reversed_end(element: Element, source: Element | None = None) -> Element:
