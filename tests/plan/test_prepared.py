@@ -163,7 +163,7 @@ def test_world_frames_are_held_to_by_each_path_for_itself():
     for degrees in (45.0, 30.0, 45.0):
         path = refracted_in_space(degrees)
         assert path.trace(n=1.5, t=f"{degrees} deg").S0 > 0.9
-        with pytest.raises(op.ParameterError, match="turn light by .*, but by"):
+        with pytest.raises(op.ParameterError, match=r"turn light by .*, but by"):
             path.trace(n=1.5, t="20 deg")
 
 

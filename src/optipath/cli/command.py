@@ -47,7 +47,7 @@ _COMMANDS = {
     "materials": "materials",
     "plot": "plot",
     "polarization": "polarization",
-    "presets": "show",
+    "presets": "presets",
     "run": "run",
     "show": "show",
     "surface": "surface",

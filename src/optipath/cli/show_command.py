@@ -1,4 +1,4 @@
-"""``optipath presets`` and ``optipath show``: what presets there are, what one is made of."""
+"""``optipath show``: what a preset is made of."""
 
 from __future__ import annotations
 
@@ -7,21 +7,15 @@ from typing import TYPE_CHECKING
 import click
 
 from optipath.cli.arguments import NEW_FILE, check_place, write
-from optipath.cli.console import JSON, PlainConsole, cell, headed, say_descriptions, wrapped
+from optipath.cli.console import PlainConsole, cell, headed, wrapped
 from optipath.cli.options import StrictCommand
 from optipath.cli.path_picture import headings, parameter_rows, path_picture
 from optipath.cli.preset_command import no_preset, one_case
 from optipath.paths.drawing import draw
-from optipath.paths.files.presets import load_preset, preset_descriptions, preset_of_case
+from optipath.paths.files.presets import load_preset, preset_of_case
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-
-@click.command(cls=StrictCommand, params=[JSON])
-def presets(*, as_json: bool) -> None:
-    """List the presets."""
-    say_descriptions("preset", preset_descriptions(), as_json=as_json)
 
 
 CASE = click.Option(["--case", "cases"], metavar="NAME", multiple=True, help="Named set of values.")
