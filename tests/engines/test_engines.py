@@ -262,7 +262,7 @@ def test_what_runs_a_batch_can_be_asked_and_numba_takes_nothing_too_long():
     ran = [plan.engine_for(count) for count in (1, 10, 100, 100_000)]
     assert ran == ["floats", "floats", "numpy", "numpy"]
     assert plan.engine_for(10**8) == plan.engine == "numba"
-    assert "all by numba where it has compiled the path before" in plan.explain()
+    assert "paths, numba" in plan.explain()
     stepped = op.Composer(engine="numpy").compose(op.load_preset("npgr026"))
     assert (stepped.engine_for(10), stepped.engine_for(5000)) == ("numpy, step by step", "numpy")
     turning = [op.Polarizer(op.Parameter("a")), op.Retarder(op.Parameter("b"), 0.3)]
@@ -272,7 +272,7 @@ def test_what_runs_a_batch_can_be_asked_and_numba_takes_nothing_too_long():
     angles = [op.Parameter(f"a{i}") for i in range(20)]
     plan = chain([op.Interface(0.2 + 3j, angle, azimuth=0.3) for angle in angles]).compose()
     assert plan.engine_for(10**8) == plan.engine == "numpy"
-    assert "take Numba too long to compile" in plan.explain()
+    assert "paths, numba" not in plan.explain()
     given = {f"a{i}": np.linspace(0.1, 1.0, 70_000) for i in range(20)}
     few = {name: values[:5] for name, values in given.items()}
     np.testing.assert_allclose(plan.run(**given).stokes[:5], plan.run(**few).stokes, rtol=1e-13)
