@@ -110,9 +110,9 @@ class OwnWays:
         if len(matrices) < 2 or self.element.physical is False:
             return []
         times = np.ravel(gain(sum(np.broadcast_arrays(*matrices), np.zeros((4, 4)))))
-        place = int(np.argmax(times))
-        if not times[place] > 1.0 + tolerance:
+        if not np.any(times > 1.0 + tolerance):
             return []
+        place = int(np.argmax(times))
         ports = listed([f"'{coupling.leaves}'" for coupling in self.couplings])
         text = (
             f"{self._named()} lets out up to {times[place]:.6g} times the light that comes in at "

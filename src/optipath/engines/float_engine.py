@@ -98,7 +98,7 @@ def source(formula: Formula, space: dict[str, Any], known: Sequence[Symbol] = ()
             continue
         text = OPERATIONS[step.operation].text.format(*written(step.operands))
         operands = [o.index for o in step.operands if isinstance(o, Symbol)]
-        deep = 1 + max([depth.get(index, 0) for index in operands])
+        deep = 1 + max([depth.get(index, 0) for index in operands], default=0)
         if early.issuperset(operands):
             early.add(step.index)
             first.append(f"t{step.index} = {text}")
@@ -154,7 +154,7 @@ class Template:
         known = [place for place in places if not isinstance(arguments[place], Symbol)]
         try:
             function = self._made(which, known)(*[float(arguments[place]) for place in known])
-        except (ArithmeticError, ValueError):
+        except (ArithmeticError, TypeError, ValueError):
             return self._made(which, [])(), list(places)
         return function, [place for place in places if place not in known]
 

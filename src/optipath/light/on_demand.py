@@ -33,8 +33,11 @@ class FramesOnDemand:
     ) -> Frame | Callable[[], Frame]:
         """Return the frames that belong to a part of a batch, or what returns them."""
         stored = self._cached_frame(name)
-        if type(stored) is Frame and stored.z.ndim == 1:
-            return stored
+        # At once, since what tells the part may change, but for what JAX traces.
+        if type(stored) is Frame and (
+            stored.z.ndim == 1 or not is_traced(change(np.broadcast_to(0.0, batch)))
+        ):
+            return _indexed_frame(stored, batch, change)
         return lambda: _indexed_frame(getattr(self, name), batch, change)
 
     def __getstate__(self) -> dict[str, Any]:

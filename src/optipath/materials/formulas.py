@@ -223,8 +223,8 @@ class Oscillators(FormulaCurve):
     unreal = "its coefficients give no permittivity that is a number"
 
     def __init__(self, label: str, span: Any, oscillators: Any, **others: Any) -> None:
-        rows = oscillators
-        if not hasattr(rows, "__iter__") or not all(hasattr(row, "__len__") for row in rows):
+        rows: Any = list(oscillators) if np.iterable(oscillators) else [()]
+        if not all(hasattr(row, "__len__") and np.ndim(row) for row in rows):
             rows = [()]
         if any(len(row) != len(self.each) for row in rows):
             raise ValueFault(

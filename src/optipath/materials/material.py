@@ -7,7 +7,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from optipath.errors import Cure, Fault, ParameterError, UnitError, ValueFault, shown
+from optipath.errors import (
+    Cure,
+    Fault,
+    ParameterError,
+    UnitError,
+    ValueFault,
+    collecting,
+    shown,
+)
 from optipath.materials.database import parts_by_name, parts_of_file
 from optipath.materials.formulas import EVERYWHERE, Cauchy, DrudeLorentz, Sellmeier, TaucLorentz
 from optipath.materials.tables import Tabulated
@@ -205,14 +213,17 @@ class Material:
         names = ["n", "k"] if k is None else ["n"]
         cures = {"k": "; or give k=0.0 where nothing absorbs"}
         table = read_columns(path, names, unit=unit, cures=cures)
-        return cls.tabulated(
-            table.wavelengths,
-            **{"k": k, **table.columns},
-            interpolation=interpolation,
-            extrapolate=extrapolate,
-            name=name or table.title,
-            wavelength=wavelength,
-        )
+        faults: list[str] = []
+        with collecting(faults, about=str(path)):
+            return cls.tabulated(
+                table.wavelengths,
+                **{"k": k, **table.columns},
+                interpolation=interpolation,
+                extrapolate=extrapolate,
+                name=name or table.title,
+                wavelength=wavelength,
+            )
+        raise ValueFault(*faults)
 
     @classmethod
     def sellmeier(

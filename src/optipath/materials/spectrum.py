@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from optipath.errors import ValueFault, listed, shown, unknown
+from optipath.errors import ValueFault, collecting, listed, shown, unknown
 from optipath.materials.quantities import NON_NEGATIVE
 from optipath.materials.spectrum_kinds import (
     PLACES,
@@ -168,7 +168,12 @@ class Spectrum(Curve):
         """
         result = read_columns(path, [column], unit=unit)
         values = result.columns[column]
-        return cls.sampled(result.wavelengths, values, outside=outside, name=name or result.title)
+        faults: list[str] = []
+        with collecting(faults, about=str(path)):
+            return cls.sampled(
+                result.wavelengths, values, outside=outside, name=name or result.title
+            )
+        raise ValueFault(*faults)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 
 
 _ROUNDING = 4e-15
-"""Up to what angle two turns are one."""
+"""Up to what angle two turns are one, or share of it beyond 1 rad."""
 
 _LONGEST = 12
 """How many nodes a path may have that is shown as a chain."""
@@ -213,7 +213,8 @@ def are_alike(first: Any, second: Any) -> bool:
         rest = _sum(first, -second)
     except OptipathError:
         return False
-    return not isinstance(rest, Parameter) and bool(np.all(np.abs(rest) < _ROUNDING))
+    size = np.maximum(1.0, np.abs(getattr(first, "offset", first)))
+    return not isinstance(rest, Parameter) and bool(np.all(np.abs(rest) < _ROUNDING * size))
 
 
 def _give_azimuth_to_links(graph: nx.MultiDiGraph, link: Link) -> None:
@@ -349,6 +350,7 @@ def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap:
 
 def disconnect(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> None:
     """Take a link out, as `PathGraph.disconnect` does."""
+    find_port(graph, leaves, out=True)
     graph.remove_edge(*_link(graph, leaves, enters))
 
 

@@ -33,9 +33,9 @@ class LightOnLink(NamedTuple):
     end: str
     enters: str
     light: Light
+    power: Any = None
     tap: bool = False
     in_loop: bool = False
-    power: Any = None
 
 
 class EnergyAlong(NamedTuple):
@@ -143,7 +143,7 @@ def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
     lights: Mapping[str, Light] = path.plan_by(KEEPING).run_all(**parameters)
     wiring = Wiring(path.graph, keep="all")
     results = [
-        LightOnLink(name, start, leaves, end, enters, lights[name], bool(tap))
+        LightOnLink(name, start, leaves, end, enters, lights[name], tap=bool(tap))
         for start, end, (leaves, enters), tap in path.graph.edges(keys=True, data="tap")
         if (name := link_text((start, end, (leaves, enters)))) in lights
     ]

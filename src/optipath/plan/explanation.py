@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from math import prod
 from typing import TYPE_CHECKING, Any
 
@@ -279,9 +281,12 @@ def _notes(plan: Any) -> Iterator[str]:
             f"in real numbers"
         )
     else:
-        sizes: dict[str, int] = {}
-        for count in sorted({2, HANDFUL, FEW, *[10**power for power in range(10)]}):
-            sizes.setdefault(plan.engine_for(count), count)
+        sizes = {plan.engine_for(1): 1}
+        for few, many in pairwise(sorted({2, HANDFUL, FEW, *[10**power for power in range(10)]})):
+            if (engine := plan.engine_for(many)) not in sizes:
+                counts = range(few, many)
+                reached = bisect_left(counts, 1, key=lambda count: plan.engine_for(count) == engine)
+                sizes[engine] = few + reached
         (first, _), *others = sizes.items()
         larger = [f"; from {count:,} paths, {engine}" for engine, count in others]
         yield f"batches are run by {first}{''.join(larger)}"
