@@ -261,7 +261,7 @@ def test_all_faults_are_told_at_once_and_files_that_are_missing(read, tmp_path):
     assert (len(fault.value.faults), fault.value.faults[-1]) == (13, "and 988 more")
     with pytest.raises(ValueFault, match=r"begin with a line such as 'wavelength \(nm\), power'"):
         read("400,1\n500,2\n", ["power"])
-    with pytest.raises(ValueFault, match=r"silver\.csv: it cannot be read: there is no such file"):
+    with pytest.raises(ValueFault, match=r"silver\.csv: it cannot be read: No such file"):
         read_columns(tmp_path / "silver.csv", NK)
     with pytest.raises(ValueFault, match="it cannot be read"):
         read_columns(tmp_path, NK)

@@ -204,9 +204,7 @@ def test_a_file_gives_the_cells_of_the_column_of_the_parameter_with_its_unit(tmp
     assert several_texts(POLARIZER, text) == ["none", "horizontal", "30 deg"]
     with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
         several_texts(POLARIZER, written(tmp_path, "horizontal\nvertical\n"))
-    with pytest.raises(
-        op.ParameterError, match=r"^nowhere\.csv: it cannot be read: there is no such file"
-    ):
+    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: it cannot be read: No such file"):
         several_texts(DELTA, "@nowhere.csv")
 
 

@@ -347,8 +347,6 @@ def lines_of(file: Path) -> list[Line]:
         text = bytes_of(file).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as fault:
         why = "it is no text in UTF-8" if isinstance(fault, ValueError) else fault.strerror
-        if isinstance(fault, FileNotFoundError):
-            why = "there is no such file; look at its name"
         raise ValueFault(f"it cannot be read: {why}", about=str(file)) from None
     lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]
     lines = [(number, line) for number, line in lines if line and not line.startswith("#")]
