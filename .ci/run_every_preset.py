@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import optipath as op
-from optipath.surfaces.experiment_files import experiment_names, load_experiment
+from optipath.surfaces.reproduction import experiment_names, load_experiment
 
 
 def main(command: str) -> None:
