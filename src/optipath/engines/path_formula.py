@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
 from functools import reduce
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -32,10 +31,6 @@ if TYPE_CHECKING:
 
 Limits: TypeAlias = tuple[float, float]
 
-NO_AXES: Mapping[Any, frozenset[int]] = MappingProxyType({})
-"""Nothing is said of the axes of arrays: all differ from path to path."""
-
-
 _APART = 1e-6
 """How far the squares of a cosine and a sine may be from 1 together."""
 
@@ -46,13 +41,14 @@ class PathFormula:
 
     With `unreduced`, known numbers are taken as inputs, and all components are computed; `single`
     is for one path of floats, by functions that paths share; `counted` counts operations alone.
+    Arrays of which `axes` says nothing differ from path to path.
     """
 
     program: Program
     precision: str
     forms: Mapping[InputKey, str]
     limits: Mapping[Hashable, Limits]
-    axes: Mapping[Any, frozenset[int]] = NO_AXES
+    axes: Mapping[Any, frozenset[int]] = field(default_factory=dict)
     _: KW_ONLY
     masks: bool = False
     unreduced: bool = False
