@@ -10,6 +10,7 @@ from importlib import import_module
 from inspect import unwrap
 from pathlib import Path
 from threading import Lock
+from types import CodeType
 from typing import TYPE_CHECKING, Any, NamedTuple
 from uuid import uuid4
 
@@ -138,12 +139,14 @@ class OwnClass(NamedTuple):
             code = getattr(function, "__code__", None)
             if code is None or function.__module__ != module:
                 continue
-            constants = [n for n in code.co_consts if isinstance(n, int | float | complex)]
-            digest.update(repr((code.co_code, code.co_names, constants)).encode())
-            known = function.__globals__
-            more = {n: known[n] for n in code.co_names if n in known and n not in used}
-            used |= more
-            todo += more.values()
+            known, codes = function.__globals__, [code]
+            for inner in codes:  # Functions within it, and comprehensions before Python 3.12.
+                codes += [part for part in inner.co_consts if isinstance(part, CodeType)]
+                constants = [n for n in inner.co_consts if isinstance(n, int | float | complex)]
+                digest.update(repr((inner.co_code, inner.co_names, constants)).encode())
+                more = {n: known[n] for n in inner.co_names if n in known and n not in used}
+                used |= more
+                todo += more.values()
         # Numbers may be out of other files, or from the command line.
         for key in sorted(used):
             if key[:2] != "__":
