@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.choice import FEW, HANDFUL, LARGE
+from optipath.engines.choice import LARGE
 from optipath.errors import ParameterError, listed
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import FULL, ROTATION
@@ -282,7 +282,7 @@ def _notes(plan: Any) -> Iterator[str]:
         )
     else:
         sizes = {plan.engine_for(1): 1}
-        for few, many in pairwise(sorted({2, HANDFUL, FEW, *[10**power for power in range(10)]})):
+        for few, many in pairwise([10**power for power in range(10)]):
             if (engine := plan.engine_for(many)) not in sizes:
                 counts = range(few, many)
                 reached = bisect_left(counts, 1, key=lambda count: plan.engine_for(count) == engine)
