@@ -12,7 +12,7 @@ PLACES = [f"{_HOME}.{name}.CHUNK" for name in ("beam", "chunks", "measure")]
 class SmallChunks(WorkerPlugin):
     """Workers walk them, those too that are started in the place of others."""
 
-    def setup(self, worker):  # noqa: ARG002 - each is one process
+    def setup(self, worker):
         for place in PLACES:
             module, _, name = place.rpartition(".")
             setattr(import_module(module), name, CHUNK)

@@ -175,6 +175,20 @@ class OptipathError(Exception):
         if about:
             self.about = _sentence("", about, "")
 
+    @classmethod
+    def raise_for(cls, faults: Iterable[str], about: str = "") -> None:
+        """Raise with faults, if there are any.
+
+        Parameters
+        ----------
+        faults : iterable of str
+            As the error takes them; what is the same is told once.
+        about : str, optional
+            As the error takes it.
+        """
+        if several := dict.fromkeys(faults):
+            raise cls(*several, about=about)
+
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its faults are what it is.
         return _remade, (type(self), self.faults), self.__dict__
@@ -308,6 +322,21 @@ def collecting(
         yield
     except error as result:
         faults += [fault.under(about) for fault in result.faults]
+
+
+@contextmanager
+def told_as(error: type[OptipathError], about: str = "") -> Iterator[None]:
+    """Tell what goes wrong inside as another error, under what it is about; else as it says itself.
+
+    >>> with told_as(ParameterError, "there"):
+    ...     raise UnitError("it is dark")
+    Traceback (most recent call last):
+    optipath.errors.ParameterError: there: it is dark
+    """
+    try:
+        yield
+    except OptipathError as result:
+        raise error(*[fault.under(about or result.about) for fault in result.faults]) from None
 
 
 T = TypeVar("T")

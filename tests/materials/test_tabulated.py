@@ -258,7 +258,7 @@ def test_numbers_of_a_file_are_judged_as_samples_are(tmp_path, text, words):
 def test_all_faults_are_told_at_once_and_files_that_are_missing(read, tmp_path):
     with pytest.raises(ValueFault) as fault:
         read(NM + "".join(f"{length},nan,1\n" for length in range(100, 1100)))
-    assert (len(fault.value.faults), fault.value.faults[-1]) == (13, "and 988 more")
+    assert str(fault.value).endswith("and 980 more")
     with pytest.raises(ValueFault, match=r"begin with a line such as 'wavelength \(nm\), power'"):
         read("400,1\n500,2\n", ["power"])
     with pytest.raises(ValueFault, match=r"silver\.csv: it cannot be read: No such file"):

@@ -11,7 +11,7 @@ import click
 import numpy as np
 
 from optipath.cli.options import flag
-from optipath.errors import OptipathError, ParameterError, shown
+from optipath.errors import OptipathError, ParameterError, shown, told_as
 from optipath.values.files import bytes_of, message_of, write_file
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength
@@ -36,10 +36,8 @@ def axis_argument(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisV
     # A bare wavelength may be nanometres, micrometres or electronvolts; a file says its units.
     is_shown = isinstance(parameter, Wavelength) or text.lstrip().startswith("@")
     unit = "" if is_shown else parameter.unit
-    try:
+    with told_as(ParameterError):
         return read_axis_text(text, parameter, unit, uses)
-    except OptipathError as error:
-        raise ParameterError(*[fault.under(error.about) for fault in error.faults]) from None
 
 
 def array_faults(inputs: Inputs, axes: Collection[str] = ()) -> list[str]:

@@ -25,7 +25,7 @@ from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
     import networkx as nx
 
@@ -242,7 +242,7 @@ class SameMedium(Agreement):
             differs = differs | (abs(k[0] - k[1]) > rounding * xp.maximum(k[0], k[1]))
         return ~differs
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+    def sentence(self, *numbers: float) -> str:
         before, behind, *k = (text_of(o, n) for o, n in zip(self.operands, numbers, strict=True))
         name, _, port = self.leaves.rpartition(".")
         side = "behind" if port == "transmitted" else "in front of"
@@ -257,7 +257,9 @@ class SameMedium(Agreement):
         if self.follows:
             taken = f"has taken its {self.field} over (FOLLOWS) from other light"
             return f"{is_lit}, but {taken}, in {_called(behind)}; {_OWN_FACE}"
-        is_open = isinstance(self.operands[1].value, Parameter) or 0 in varying
+        # A number is a sure cure where both are known, and the first is one for all paths.
+        n, own = [operand.value for operand in self.operands[:2]]
+        is_open = isinstance(n, Parameter) or isinstance(own, Parameter) or np.ndim(n)
         cures = [] if is_open or any(numbers[2:3]) else [f"{self.field} = {numbers[0]:.12g}"]
         if self.enters.endswith(".back"):
             ways = [f"give {[*cures, f'the same for {self.field} as there'][0]}"]
@@ -323,8 +325,7 @@ class SnellsLaw(Agreement):
             differs = differs & ~((abs(xp.cos(angle2)) <= rounding) & (there < here))
         return ~differs
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying  # No number is a cure.
+    def sentence(self, *numbers: float) -> str:
         angle1, n1, k1, angle2, n2, k2, *turns = numbers
         (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
         pairs = ((angle1, n1, k1), (angle2, n2, k2))

@@ -17,7 +17,7 @@ from optipath.values.agreement import Agreement, text_of
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
     from optipath.composer.wiring import Link, Port, Wiring
 
@@ -253,8 +253,7 @@ class SameTurn(Agreement):
         turn = sum(turns[: self.count]) - sum(turns[self.count :])
         return ~((abs(xp.sin(turn)) > TURNED) & (abs(xp.sin(angle)) > _NORMAL))
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying  # No number is a cure.
+    def sentence(self, *numbers: float) -> str:
         name, own = self.names
         parts = slice(1, 1 + self.count), slice(1 + self.count, None)
         turn, other = (turn_text(self.operands[part], numbers[part]) for part in parts)

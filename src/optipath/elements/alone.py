@@ -62,8 +62,8 @@ def mueller_alone(
         raise PathError(_no_way(owner, enters, leaves, couplings))
     with enough_for(batch, _TWO_MATRICES, error=PathError):
         for way in own_ways(owner, element, entering, method):
-            if way.are_known() and (faults := way.faults(Operand.numbers)):
-                raise PathError(*(text for _, text in faults))
+            if way.are_known():
+                PathError.raise_for(text for _, text in way.faults(Operand.numbers))
         matrix = wanted.matrix(method)
     arriving = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
     leaving = _frame_at(element, leaves, frames or {enters: arriving}) or Frame()
@@ -92,8 +92,7 @@ def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FR
     is_placed = not faults and element.frame_of(enters, frames) is not None
     if is_placed and np.any(Operand(azimuth_at(element, enters)).numbers()):
         faults = [f"{owner} is turned by its world frames and by an azimuth; give one of them"]
-    if faults:
-        raise PathError(*faults)
+    PathError.raise_for(faults)
     return joint_shape(*shapes.values())
 
 

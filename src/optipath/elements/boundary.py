@@ -23,7 +23,7 @@ from optipath.values.operands import Operand, operand_of
 from optipath.values.use import Use
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from optipath.values.operands import Operation
 
@@ -157,8 +157,7 @@ class WorldAngle(Agreement):
         differs = abs(result - self._expected(front, behind)) > allowed
         return ~differs | xp.isnan(sum(argument))
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying  # No number is a cure.
+    def sentence(self, *numbers: float) -> str:
         result, incidence, *indices = numbers
         front, behind = angles_of(np, incidence, *indices)
         expected = _degrees(self._expected(front, behind))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -16,9 +16,6 @@ from optipath.materials.material import Material
 from optipath.values.agreement import Agreement, text_of
 from optipath.values.arrays import changed
 from optipath.values.operands import operand_of
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
 
 
 class MediaOfBoundary:
@@ -70,8 +67,7 @@ class ArrivingWave(Agreement):
         goes_on, fades = self._wave(xp, *numbers)
         return ~((numbers[1] > 0.0) & (fades > (1.0 + _ROUNDING) * goes_on))
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying
+    def sentence(self, *numbers: float) -> str:
         n, k, n0, k0, _ = numbers
         goes_on, fades = self._wave(np, *numbers)
         of_n, of_k = self.operands[:2]

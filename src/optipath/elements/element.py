@@ -155,8 +155,8 @@ class Element(Chainable):
         """Make the subclass a frozen dataclass and enter its kind in the registry."""
         super().__init_subclass__(**keywords)
         dataclass(frozen=True, eq=False)(cls)
-        if is_own(cls) and (faults := [*class_faults(cls, Element, kind)]):
-            raise PathError(*faults)
+        if is_own(cls):
+            PathError.raise_for(class_faults(cls, Element, kind))
         cls.kind = kind
         if kind:
             register(kind, cls)
@@ -209,7 +209,6 @@ class Element(Chainable):
         -------
         list of Use
         """
-        del owner, port
         return []
 
     def parameters(self) -> Iterator[Parameter]:
@@ -227,7 +226,6 @@ class Element(Chainable):
 
     def agreements(self, owner: str) -> Iterable[Agreement]:
         """Return what must fit of the values, known or given when the path runs."""
-        del owner
         return ()
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
@@ -266,7 +264,6 @@ class Element(Chainable):
 
     def own_frame(self, port: str) -> VertexFrame | None:
         """Return the world frame that a port has by the values of the element, if it has one."""
-        del port
         return None
 
     def turn_from(self, before: Element) -> Operation | None:
@@ -281,7 +278,6 @@ class Element(Chainable):
 
     def fault_behind(self, before: Element) -> str:
         """Say why no link may lead here from another self-placed element; nothing if it may."""
-        del before
         return ""
 
     def couplings(self) -> tuple[Coupling, ...]:
@@ -393,8 +389,7 @@ class Element(Chainable):
         ('out', 'reflected', 'transmitted')
         """
         ports = (*cls.inputs, *cls.outputs)
-        if faults := unknown(f"port of {cls.__name__}", port, ports):
-            raise PathError(*faults)
+        PathError.raise_for(unknown(f"port of {cls.__name__}", port, ports))
         if len(cls.inputs) == len(cls.outputs) == 1:
             return ports[1 - ports.index(port)]
         return cls._ports_back.get(port, "")
@@ -467,6 +462,6 @@ def with_values(element: E, **values: Any) -> E:
     """Return an element with other values, of which no degrees are asked about again."""
     stored = {name: read_only(value, widened=False) for name, value in values.items()}
     result = changed(element, _is_sound=False, **stored)
-    if faults := result.faults(element.kind or type(element).__name__):
-        raise PathError(*(f"on the way back, {fault}" for fault in faults))
+    faults = result.faults(element.kind or type(element).__name__)
+    PathError.raise_for(f"on the way back, {fault}" for fault in faults)
     return result

@@ -44,7 +44,7 @@ from optipath.values.arrays import check_broadcast
 from optipath.values.operands import NOTHING, Operand, Operation, operand_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping
+    from collections.abc import Iterator, Mapping
 
     import numpy.typing as npt
 
@@ -299,8 +299,7 @@ class FadingLayer(Agreement):
         gains = [share < -_ROUNDING for share in stored]
         return ~((k > 0.0) & (gains[0] | gains[1] | gains[2] | gains[3]))
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying
+    def sentence(self, *numbers: float) -> str:
         n, k, _, _, length, wavelength, n0, angle = numbers[2:]
         more = -min(float(share) for share in self._absorbed_shares(np, *numbers))
         fades = float(along_normal(np, n, k, n0, angle)[1])
@@ -340,12 +339,10 @@ class ThinLayer(Agreement):
     layer: str
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
-        del xp
         n, length, wavelength = numbers
         return ~(n * length < _WAVELENGTHS * wavelength)
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del numbers, varying
+    def sentence(self, *numbers: float) -> str:
         return (
             f"{self.layer} is thinner than ten wavelengths, where light interferes, and a "
             f"LayerStack adds intensities; give the r_s and r_p of a film to a Mirror"
@@ -359,5 +356,4 @@ class ThinLayer(Agreement):
 
     def inside(self, arguments: Mapping[str, Resolved]) -> Any:
         """Return that any layer is allowed."""
-        del arguments
         return True

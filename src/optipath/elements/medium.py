@@ -46,7 +46,7 @@ from optipath.values.parameters import Parameter
 from optipath.values.use import refuse
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Iterator
 
     from optipath.kernels.kernel import Kernel
 
@@ -185,8 +185,7 @@ class Medium(Element, kind="medium"):
                         f"at once; give a value, or give Medium a parameter for its absorption"
                     )
                 numbers.append(domain.check(name, domain.read(name, value)))
-        if faults:
-            raise ValueFault(*faults)
+        ValueFault.raise_for(faults)
         check_broadcast({"k": np.shape(numbers[0]), "wavelength": np.shape(numbers[1])})
         with np.errstate(over="ignore"):
             absorption = 4.0 * math.pi * numbers[0] / numbers[1]
@@ -243,8 +242,7 @@ class PassiveDichroism(Agreement):
         absorption, linear, circular = numbers
         return ~(xp.hypot(linear, circular) > absorption * (1.0 + _ROUNDING))
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying  # The cure is said of each path.
+    def sentence(self, *numbers: float) -> str:
         absorption, linear, circular = (
             text_of(operand, number / 100.0, " 1/cm")
             for operand, number in zip(self.operands, numbers, strict=True)
@@ -271,8 +269,7 @@ class WithinReach(Agreement):
         dichroism, whole = _products(xp, *numbers)
         return ~((dichroism > LARGEST_DICHROISM) | (whole > LARGEST))
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying
+    def sentence(self, *numbers: float) -> str:
         dichroism, whole = _products(np, *numbers)
         return (
             f"over the length of '{self.owner}', {text_of(self.operands[-1], numbers[-1], ' m')}, "

@@ -152,8 +152,7 @@ def couplings_of(element: Any) -> tuple[Coupling, ...]:
         return tuple(element.couplings())
     what = f"couplings() of element class {type(element).__name__}"
     results: tuple[Coupling, ...] = called(what, lambda: tuple(element.couplings()))
-    if faults := list(_faults(what, element, results)):
-        raise PathError(*faults)
+    PathError.raise_for(_faults(what, element, results))
     return results
 
 

@@ -32,7 +32,7 @@ from optipath.values.parameters import Parameter
 from optipath.values.precision import as_doubles, is_whole, rounding_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping
+    from collections.abc import Callable, Mapping
 
     import numpy.typing as npt
 
@@ -162,11 +162,9 @@ class EventsDomain(Domain):
         )
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        del parameter
         raise ValueFault(f"{owner} cannot be a parameter; give {self.described()}")
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        del rounding
         events = (Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT)
         bad = ~np.isin(array, events) | (array.dtype.kind == "c")
         if np.any(bad):
@@ -202,8 +200,7 @@ class EventFits(Agreement):
             result[left] = _fits(np, *(np.broadcast_to(n, left.shape)[left] for n in numbers))
         return result
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying  # No number is a cure.
+    def sentence(self, *numbers: float) -> str:
         event, n1, n2, k, *points = numbers
         others = "give others, or bad='mask', by which the light of such chains is NaN"
         if event == Event.CANNOT:

@@ -113,8 +113,7 @@ def srgb_of(
         faults.append(f"a colour is relative to what is white; {_WHITE}")
     if not isinstance(adapt, (bool, np.bool_)):
         faults.append(f"adapt is True or False, not {shown(adapt)}")
-    if faults:
-        raise ValueFault(*faults)
+    ValueFault.raise_for(faults)
     observer, outside = seen
     xyz = tristimulus(light, white, observer, outside)
     if adapt:
@@ -212,8 +211,7 @@ def _sums(light: Light, observer: Observer, outside: str) -> Any:
 
 def _weights(grid: Array, observer: Observer, outside: str) -> Array:
     """Return what each wavelength adds to X, Y and Z, in the order of the grid."""
-    if faults := unknown("outside", outside, ("dark", "nearest")):
-        raise ValueFault(*faults)
+    ValueFault.raise_for(unknown("outside", outside, ("dark", "nearest")))
     rises = grid[-1] > grid[0]
     rising = NANOMETRES * (grid if rises else grid[::-1])
     weights = observer.weights(rising, nearest=outside == "nearest")

@@ -89,8 +89,7 @@ def changed_delta(convention: Any, delta: Any) -> Array:
 
 
 def _convention_of(convention: Any) -> Convention:
-    if faults := unknown("convention", convention, CONVENTIONS):
-        raise ValueFault(*faults)
+    ValueFault.raise_for(unknown("convention", convention, CONVENTIONS))
     return CONVENTIONS[convention]
 
 

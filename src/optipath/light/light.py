@@ -645,16 +645,14 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> op.Light([1.0, 0.0, 1.0, 0.0]).plot().get_title()
         'linear\nS0 = 1, DoP = 1, AoP = 45°'
         """
-        if faults := unknown("kind of picture", kind, _KINDS):
-            raise ParameterError(*faults)
+        ParameterError.raise_for(unknown("kind of picture", kind, _KINDS))
         from optipath.plots import ellipse, poincare, stokes  # noqa: PLC0415 - above light
 
         draws: Any = {"ellipse": ellipse, "poincare": poincare, "stokes": stokes}
         draw = draws[kind]
         known = [name for name in signature(draw).parameters if name not in ("light", "ax")]
         wrong = [fault for name in options for fault in unknown(f"{kind} option", name, known)]
-        if wrong:
-            raise ParameterError(*wrong)
+        ParameterError.raise_for(wrong)
         return draw(self, ax, **options)
 
     @property

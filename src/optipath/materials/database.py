@@ -114,12 +114,10 @@ def page_curve(
     for at, entry in enumerate(data, 1):
         with collecting(faults, about=f"entry {at} of DATA"):
             entries.append(_entry(entry))
-    if faults:
-        raise MaterialError(*[Fault.of(fault).cured(remedy) for fault in faults], about=about)
+    MaterialError.raise_for([Fault.of(fault).cured(remedy) for fault in faults], about)
     # Of two entries that give one part, the later one counts, as the database's reader has it.
     giving = {part: entry for entry in entries for part in entry.parts}
-    if lacking := [part for part in wanted if part not in giving]:
-        raise MaterialError(*[_lacking(label, part, giving) for part in lacking])
+    MaterialError.raise_for(_lacking(label, part, giving) for part in wanted if part not in giving)
     chosen = {part: entry for part, entry in giving.items() if part in wanted}
     faults += unknown("interpolation", how["interpolation"], INTERPOLATIONS)
     faults += unknown("extrapolate", how["extrapolate"], EXTRAPOLATIONS)
@@ -133,8 +131,7 @@ def page_curve(
             f"{label} is by a formula, which has no straight line beyond its range; "
             f"{NEAREST_REQUESTED}, or stay within it"
         )
-    if faults:
-        raise MaterialError(*faults)
+    MaterialError.raise_for(faults)
     try:
         curves = [
             entry.curve(label, parts, how)
@@ -234,8 +231,7 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
         elif words:
             wrong = shown(" ".join(words))
             faults.append(f"('{kind}') has {wrong} in row {at}; give {1 + len(parts)} numbers")
-    if faults:
-        raise OptipathError(*faults)
+    OptipathError.raise_for(faults)
     columns = tuple(zip(*sorted(rows), strict=True))
     return PageEntry(kind, parts, (columns[0][0], columns[0][-1]), columns=columns)
 

@@ -29,7 +29,7 @@ from optipath.values.use import Use
 from optipath.values.wavelength import HC, LONGEST_FIRST, WAVELENGTH, too_long
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Hashable, Mapping, Sequence
+    from collections.abc import Hashable, Mapping, Sequence
 
     from optipath.values.parameters import Resolved
 
@@ -66,8 +66,7 @@ class FormulaCurve(Curve):
                 _check(f"{name} of {label}", value, domain)
         with collecting(faults, ValueFault):
             vars(self).update(span=read_span(f"span of {label}", span))
-        if faults:
-            raise ValueFault(*faults)
+        ValueFault.raise_for(faults)
         vars(self).update({name: _as_floats(value) for name, value in arguments.items()})
 
     @abstractmethod
@@ -320,8 +319,7 @@ class TaucLorentz(Oscillators):
                 f"same at all wavelengths"
             )
         limits = self._limits([value for _, value, _ in self.arguments()])
-        if faults := first_faults([law for law in limits if not law.is_open]):
-            raise ValueFault(*faults)
+        ValueFault.raise_for(first_faults([law for law in limits if not law.is_open]))
 
     def misfits(self, arguments: Sequence[Any], given: Mapping[str, Resolved]) -> list[str]:
         return first_faults(self._limits(arguments), given)
@@ -350,12 +348,10 @@ class BroadeningLimit(Agreement):
     owner: str
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
-        del xp
         energy, broadening = numbers
         return ~(broadening >= 2.0 * energy)
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        del varying
+    def sentence(self, *numbers: float) -> str:
         energy, broadening = [text_of(*each) for each in zip(self.operands, numbers, strict=True)]
         return (
             f"{self.owner} has the broadening {broadening} and the energy {energy}; the formula "
@@ -400,7 +396,6 @@ class DispersionFormula(Curve):
         return (self.label, self.formula, self.coefficients, self.known_span, self.extrapolate)
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        del arguments
         inside = xp.clip(wavelength, *self.known_span) if self.extrapolate else wavelength
         result = DATABASE_FORMULAS[self.formula](xp, inside * MICROMETRES, self.coefficients)
         return (xp.broadcast_to(result, xp.shape(wavelength)),)

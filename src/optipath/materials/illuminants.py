@@ -172,8 +172,7 @@ def observer_called(name: str) -> Observer:
     >>> observer.functions.sum(axis=0).round(3)
     array([106.865, 106.857, 106.892])
     """
-    if faults := unknown("observer", name, tuple(_TABLES)):
-        raise ValueFault(*faults)
+    ValueFault.raise_for(unknown("observer", name, tuple(_TABLES)))
     return _observer(name)
 
 

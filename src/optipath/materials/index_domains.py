@@ -159,7 +159,6 @@ class IndexDomain(_IndexOrMaterial):
         return there & (n >= least) & (n <= most) & (k >= 0.0) & (k <= most)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        del rounding
         bad = ~self.allows(array)
         if np.any(bad):
             value = array[bad].ravel()[0]
@@ -181,7 +180,6 @@ class OutsideDomain(_IndexOrMaterial):
         return NoAbsorption("extinction coefficient", why=self.why)
 
     def domains_of(self, material: Material) -> tuple[Domain, Domain]:
-        del material
         return self, self.of_k
 
     def described(self) -> str:
@@ -269,7 +267,6 @@ class RowDomain(Domain):
     of_entries: ClassVar[Domain]
 
     def quickly_allows(self, value: Any) -> bool:
-        del value
         return False
 
     def read(self, owner: str, value: Any) -> Any:

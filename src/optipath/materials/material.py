@@ -13,8 +13,8 @@ from optipath.errors import (
     ParameterError,
     UnitError,
     ValueFault,
-    collecting,
     shown,
+    told_as,
 )
 from optipath.materials.database import parts_by_name, parts_of_file
 from optipath.materials.formulas import EVERYWHERE, Cauchy, DrudeLorentz, Sellmeier, TaucLorentz
@@ -213,8 +213,7 @@ class Material:
         names = ["n", "k"] if k is None else ["n"]
         cures = {"k": "; or give k=0.0 where nothing absorbs"}
         table = read_columns(path, names, unit=unit, cures=cures)
-        faults: list[str] = []
-        with collecting(faults, about=str(path)):
+        with told_as(ValueFault, str(path)):
             return cls.tabulated(
                 table.wavelengths,
                 **{"k": k, **table.columns},
@@ -223,7 +222,6 @@ class Material:
                 name=name or table.title,
                 wavelength=wavelength,
             )
-        raise ValueFault(*faults)
 
     @classmethod
     def sellmeier(
@@ -583,5 +581,4 @@ def _refuse_unphysical(curve: Tabulated, k: Any) -> None:
     known = k if isinstance(k, (int, float, np.ndarray)) else 1.0
     if not faults and np.any(bad := (curve.columns[0] == 0.0) & (known == 0.0)):
         faults = [f"n of {curve.label} is 0 at {first(bad)}, where k is 0; give an n above 0 there"]
-    if faults:
-        raise ValueFault(*faults)
+    ValueFault.raise_for(faults)

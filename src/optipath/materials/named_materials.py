@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import Fault, OptipathError, ParameterError, UnitError, listed, shown
+from optipath.errors import Fault, ParameterError, UnitError, listed, shown, told_as
 from optipath.materials.database_names import VACUUM
 from optipath.materials.material import Material
 from optipath.materials.quantities import plain
@@ -54,10 +54,8 @@ def material_named(option: str, text: str, k: Any = None) -> Material:
             f"{option} takes one material, and {shown(text)} names several; give one, and write a "
             f"command for each"
         )
-    try:
+    with told_as(ParameterError, option):
         return Material.named(text, k=k)
-    except OptipathError as error:
-        raise ParameterError(*(fault.under(option) for fault in error.faults)) from None
 
 
 def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Material]]:

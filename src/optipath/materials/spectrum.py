@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from optipath.errors import ValueFault, collecting, listed, shown, unknown
+from optipath.errors import ValueFault, listed, shown, told_as, unknown
 from optipath.materials.quantities import NON_NEGATIVE
 from optipath.materials.spectrum_kinds import (
     PLACES,
@@ -168,12 +168,10 @@ class Spectrum(Curve):
         """
         result = read_columns(path, [column], unit=unit)
         values = result.columns[column]
-        faults: list[str] = []
-        with collecting(faults, about=str(path)):
+        with told_as(ValueFault, str(path)):
             return cls.sampled(
                 result.wavelengths, values, outside=outside, name=name or result.title
             )
-        raise ValueFault(*faults)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
@@ -288,7 +286,6 @@ class Spectrum(Curve):
         return self.kind.content
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        del arguments
         result = self.kind.density(xp, wavelength)
         if self.kind.lines:
             result = result + density_of_lines(self.kind.lines, wavelength)
@@ -391,8 +388,7 @@ class Spectrum(Curve):
         -------
         Spectrum
         """
-        if faults := unknown("outside", outside, ("refuse", "drop")):
-            raise ValueFault(*faults)
+        ValueFault.raise_for(unknown("outside", outside, ("refuse", "drop")))
         ends = np.sort(edges_of("edges", edges))
         low, high = float(ends[0]), float(ends[-1])
         check_known_at(self, np.array([low, high]))

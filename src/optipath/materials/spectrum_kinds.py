@@ -214,8 +214,7 @@ class Illuminant(SpectrumKind):
     factor: float = 1.0
 
     def __post_init__(self) -> None:
-        if faults := unknown("illuminant", self.name, ILLUMINANTS):
-            raise ValueFault(*faults)
+        ValueFault.raise_for(unknown("illuminant", self.name, ILLUMINANTS))
         vars(self).update(
             label=f"illuminant {self.name}",
             span=KNOWN_SPAN,

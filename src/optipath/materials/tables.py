@@ -57,8 +57,7 @@ class Tabulated(Curve):
                 for part, column in zip(parts, values, strict=True)
                 if len(column) != len(places)
             ]
-        if faults:
-            raise ValueFault(*faults)
+        ValueFault.raise_for(faults)
         if places[0] > places[-1]:
             places, values = places[::-1].copy(), [column[::-1].copy() for column in values]
         steps = np.diff(places)
@@ -106,7 +105,6 @@ class Tabulated(Curve):
         return self.extrapolate != "linear" and bool(np.all(self.columns[place] > 0.0))
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        del arguments
         # Each sample reaches halfway to its neighbours, so that it is exact on either side.
         piece = xp.searchsorted(xp.asarray(self._edges), wavelength, side="right")
         step = wavelength - xp.asarray(self._nodes)[piece]
@@ -251,5 +249,4 @@ class PageCurve(Curve):
         return [c.is_nowhere_0(at) for c in self.curves for at in range(len(c.parts))][place]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        del arguments
         return tuple([part for curve in self.curves for part in curve.numbers(xp, wavelength)])

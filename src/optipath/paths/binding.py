@@ -16,6 +16,7 @@ from optipath.errors import (
     PathError,
     collecting,
     shown,
+    told_as,
     unknown,
 )
 from optipath.materials.material import Material
@@ -249,15 +250,12 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
         raise PathError(*faults)
     element = element_at(graph, choice.node)
     if choice.place(graph) != word:
-        try:
+        with told_as(PathError, f"'{choice.node}' cannot be moved to {name}={shown(word)}"):
             turns = turns_to(graph, choice.node) if graph.in_degree(choice.node) else None
             remove(graph, choice.node)
             insert(graph, choice.node, element, choice.behind[word], None)
             if turns is not None:
                 turn_to(graph, choice.node, turns)
-        except PathError as fault:
-            wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}"
-            raise PathError(*(each.under(wrong) for each in fault.faults)) from None
 
 
 def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:

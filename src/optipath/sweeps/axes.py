@@ -27,7 +27,7 @@ from optipath.sweeps.datasets import DETECTOR, is_variable
 from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
 from optipath.values.angles import CosSin
 from optipath.values.arrays import as_argument, broadcast_fault, locked
-from optipath.values.columns import NO_UNIT, TextColumn, columns_of, first_of, missing_unit
+from optipath.values.columns import NO_UNIT, TextColumn, columns_of, missing_unit
 from optipath.values.jax_values import check_known, known
 from optipath.values.text import AxisValues, IdleValues, read_axis_text, read_entries
 from optipath.values.units import BASE_UNITS, UNITS, dimension_of, units_of
@@ -446,4 +446,4 @@ def _read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
                 read([text])
             message += [f"line {line}: {sentence}" for sentence in of_one]
         message = message or [*fault.faults]
-    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in first_of(message)])
+    raise ParameterError(*[f"{column.file}: {sentence}" for sentence in message])

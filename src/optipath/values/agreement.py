@@ -17,7 +17,7 @@ from optipath.values.operands import NOTHING, Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Hashable, Iterable, Mapping
+    from collections.abc import Hashable, Iterable, Mapping
 
     from optipath.values.parameters import Resolved
 
@@ -38,7 +38,7 @@ class Agreement:
         """Return for which paths numbers fit, with the functions of NumPy or of JAX."""
         raise NotImplementedError
 
-    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+    def sentence(self, *numbers: float) -> str:
         """Say of numbers of one path that they do not fit, and the cure."""
         raise NotImplementedError
 
@@ -83,8 +83,7 @@ class Agreement:
         if (result := self._first_misfit(arrays)) is None:
             return ""
         at, misfit = result
-        varying = [place for place, array in enumerate(arrays) if np.any(array != array.flat[0])]
-        fault = Fault.of(self.sentence(*misfit, varying=varying))
+        fault = Fault.of(self.sentence(*misfit))
         shape = joint_shape(*(array.shape for array in arrays))
         if (count := math.prod(shape)) == 1:
             return fault

@@ -69,8 +69,7 @@ class CosSin(Unchanging):
                 f"CosSin takes a cosine and a sine, not {shown(cos)} alone; give an angle itself"
             )
         cos, sin = _numbers("cos", cos), _numbers("sin", sin)
-        if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}):
-            raise ParameterError(*faults)
+        ParameterError.raise_for(broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}))
         refuse_too_large(joint_shape(np.shape(cos), np.shape(sin)), _ANGLE, error=ParameterError)
         object.__setattr__(self, "cos", within_right_angle(cos, sin))
         object.__setattr__(self, "sin", sin)

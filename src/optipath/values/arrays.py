@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from optipath.errors import OptipathError, ShapeError, ValueFault, collecting, shown
+from optipath.errors import OptipathError, ShapeError, ValueFault, collecting, shown, told_as
 from optipath.values.jax_values import is_jax, is_traced
 from optipath.values.precision import ENDLESS, Array, doubles, within
 
@@ -157,8 +157,7 @@ def _joint(shapes: Iterable[tuple[int, ...]]) -> tuple[int, ...] | None:
 
 def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
     """Return the shape that several shapes broadcast to."""
-    if faults := broadcast_fault(shapes):
-        raise ShapeError(*faults)
+    ShapeError.raise_for(broadcast_fault(shapes))
     batch = joint_shape(*shapes.values())
     refuse_too_large(batch, _STOKES)
     return batch
@@ -343,15 +342,12 @@ def numbers_for(
         if isinstance(entry, str):
             with collecting(faults, error):
                 entries[place] = _number(what, entry, parse, error)
-    if faults:
-        raise error(*dict.fromkeys(faults))
+    error.raise_for(faults)
     if all(isinstance(entry, _NUMBER) and not isinstance(entry, bool) for entry in entries):
         entries = np.array(entries.tolist())
     return entries.reshape(array.shape)
 
 
 def _number(what: str, text: str, parse: Callable[[str], T], error: type[OptipathError]) -> T:
-    try:
+    with told_as(error, what):
         return parse(text)
-    except OptipathError as fault:
-        raise error(*(each.under(what) for each in fault.faults)) from None

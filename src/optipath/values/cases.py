@@ -45,8 +45,7 @@ class Case:
         ]
         if not isinstance(self.note, str):
             faults.append(f"the note of a case must be a text, not {shown(self.note)}")
-        if faults:
-            raise ParameterError(*faults)
+        ParameterError.raise_for(faults)
         values = {str(name): read_only(value) for name, value in self.values.items()}
         published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
         object.__setattr__(self, "values", values)

@@ -45,8 +45,6 @@ _NUMBER = re.compile(r"[-+]?\.?\d")
 NO_UNIT = "1"
 """What stands for no unit, as the conventions for NetCDF (CF) write it."""
 
-_MOST_REPORTED = 12
-
 Line: TypeAlias = tuple[int, list[str]]
 """Its number, and its cells."""
 
@@ -92,8 +90,7 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
         for line, cell in zip(column.lines, column.cells, strict=True)
         if not cell
     ]
-    if faults:
-        raise ParameterError(*first_of([*dict.fromkeys(faults)]), about=str(file))
+    ParameterError.raise_for(faults, str(file))
     return columns
 
 
@@ -176,8 +173,7 @@ def read_columns(
             if not np.array_equal(grids[0], grids[-1]):
                 cure = "write all columns into lines of common wavelengths"
                 faults.append(f"{second}, of other wavelengths; {cure}")
-    if faults:
-        raise ValueFault(*first_of(faults), about=str(file))
+    ValueFault.raise_for(faults, str(file))
     return CsvColumns(file.stem, grids[0], results)
 
 
@@ -247,8 +243,7 @@ def _columns(
             for (_, unit), cell in zip(heads, cells, strict=True)
             if unit and (own := unit_of(cell)) and own != unit
         ]
-    if faults:
-        raise ValueFault(*first_of(faults), about=str(file))
+    ValueFault.raise_for(faults, str(file))
     numbers = tuple([line for line, _ in rows])
     cells_of = zip(*[cells for _, cells in rows], strict=True)
     return [
@@ -291,8 +286,7 @@ def _each(texts: Sequence[str], lines: Sequence[int], read: Callable[[str], floa
     for line, text in zip(lines, texts, strict=True):
         with collecting(faults, about=f"line {line}"):
             results.append(read(text))
-    if faults:
-        raise ValueFault(*faults)
+    ValueFault.raise_for(faults)
     return results
 
 
@@ -360,12 +354,5 @@ def lines_of(file: Path) -> list[Line]:
             faults.append(f"line {number} cannot be read: {fault}")
         else:
             results.append((number, [cell.strip() for cell in cells]))
-    if faults:
-        raise ValueFault(*first_of(faults), about=str(file))
+    ValueFault.raise_for(faults, str(file))
     return results
-
-
-def first_of(faults: list[str]) -> list[str]:
-    """Return the first of many faults, and how many more there are."""
-    more = len(faults) - _MOST_REPORTED
-    return [*faults[:_MOST_REPORTED], *[f"and {more} more"] * (more > 0)]

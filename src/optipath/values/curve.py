@@ -66,7 +66,6 @@ class Curve(Unchanging, ABC):
         list of str
             A sentence for each.
         """
-        del arguments, given
         return []
 
     @abstractmethod
@@ -120,16 +119,13 @@ class Curve(Unchanging, ABC):
 
     def unreal_of(self, place: int) -> str:
         """Return why the numbers of one of its parts may be none; see `unreal`."""
-        del place
         return self.unreal
 
     def samples(self, place: int) -> Any:
         """Return the numbers that somebody gave for one of its parts; None where it has none."""
-        del place
 
     def is_nowhere_0(self, place: int) -> bool:
         """Tell whether it is known that the numbers of one of its parts are above 0 throughout."""
-        del place
         return False
 
     @property

@@ -201,8 +201,7 @@ def check_computed(
         if not np.any(bad):
             raise
         known = {**_defaults(value.arguments), **(arguments or {})}
-        if misfits := value.curve.misfits(value.depends_on[1:], known):
-            raise ValueFault(*misfits) from fault
+        ValueFault.raise_for(value.curve.misfits(value.depends_on[1:], known))
         what, cure = _no_result(value, placed, bad, known)
         wanted = f", and {owner} takes {domain.described()}" if owner else ""
         if not takes_0_alone(domain):

@@ -150,7 +150,6 @@ class Domain:
         return format_quantity(value, self.unit)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        del rounding
         if array.dtype.kind == "c":
             raise ValueFault(f"{owner} is complex; give {self.described()}")
         if np.isinf(self.minimum) and np.isinf(self.maximum):
@@ -191,7 +190,6 @@ class Choice(Domain):
         raise ValueFault(f"{owner} is {shown(value)}{did_you_mean(value, self.words)}")
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        del parameter
         raise ValueFault(f"{owner} cannot be a parameter; give {self.described()} when building")
 
     def described(self) -> str:
@@ -274,11 +272,9 @@ class Refused(Domain):
     why: str = ""
 
     def quickly_allows(self, value: Any) -> bool:
-        del value
         return False
 
     def check(self, owner: str, value: Any) -> NoReturn:
-        del value
         raise ValueFault(f"{owner} {self.why}")
 
     def check_parameter(self, owner: str, parameter: Parameter) -> NoReturn:
@@ -316,7 +312,6 @@ class AmplitudeDomain(Domain):
         return xp.hypot(*parts) <= 1.0 + _SINGLE_ROUNDING
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        del rounding
         bad = ~self.allows(array)
         if np.any(bad):
             raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")

@@ -173,8 +173,7 @@ class Parameter:
         for what, value in _limits_and_words(self):
             with collecting(faults, ParameterError):
                 numbers.append(value if type(value) is float else self._one_number(what, value))
-        if faults:
-            raise ParameterError(*faults)
+        ParameterError.raise_for(faults)
         low, high, *words = numbers
         low, high = (float(doubles(np.asarray(end))) for end in (low, high))
         if not low <= high:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, UnitError, collecting, shown
-from optipath.values.columns import column_for, first_of
+from optipath.errors import ParameterError, UnitError, collecting, shown, told_as
+from optipath.values.columns import column_for
 from optipath.values.parameters import ABSENT, AXES
 from optipath.values.units import (
     BASE_UNITS,
@@ -69,12 +69,8 @@ def read_axis_text(
         return None
     if ":" in text and len(texts) > 1:
         parameter.parse(texts[0], unit)  # What is wrong with the first is wrong with all.
-    try:
+    with told_as(ParameterError, column_file(text) or ""):
         return read_entries(texts, parameter, unit, uses)
-    except OptipathError as fault:
-        if (file := column_file(text)) is None:
-            raise
-        raise ParameterError(*[each.under(file) for each in fault.faults]) from None
 
 
 def read_entries(
@@ -87,8 +83,7 @@ def read_entries(
     for entry in entries:
         with collecting(faults):
             results.append(_read(entry, parameter, unit, uses))
-    if faults:
-        raise ParameterError(*first_of([*dict.fromkeys(faults)]))
+    ParameterError.raise_for(faults)
     arguments = [each.given for each in results]
     numbers = np.array(arguments, object if ABSENT in arguments else None)
     if any(isinstance(each.shown, str) for each in results):
@@ -141,20 +136,16 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     """
     text = text.strip()
     if (file := column_file(text)) is not None:
-        try:
+        with told_as(ParameterError):
             return column_for(parameter, file)
-        except OptipathError as fault:
-            raise ParameterError(*[each.under(fault.about) for each in fault.faults]) from None
-    try:
+    with told_as(ParameterError, parameter.called):
         if "," not in text:
             return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
         parts = _listed(text)
         for part in parts:
             if ":" in part:
                 _is_ratio(parameter, part)
-    except UnitError as fault:
-        raise ParameterError(*[each.under(parameter.called) for each in fault.faults]) from None
-    return parts
+        return parts
 
 
 def _listed(text: str) -> list[str]:
