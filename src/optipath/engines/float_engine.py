@@ -7,6 +7,7 @@ does to arguments of some forms is recorded and made a function once, and a path
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -60,9 +61,15 @@ def float_path(formula: Formula, known: Sequence[Symbol] = ()) -> Callable[..., 
     It gives None, or raises ArithmeticError or ValueError, where the formula fails.
     """
     space: dict[str, Any] = dict(_SPACE)
-    exec(compile(source(formula, space, known), "<formula>", "exec"), space)  # noqa: S102 - our own
+    exec(_compiled(source(formula, space, known)), space)  # noqa: S102 - our own
     maker: Callable[..., FloatPath] = space["made"]
     return maker
+
+
+@lru_cache(maxsize=1024)
+def _compiled(text: str) -> Any:
+    """Return the code of a text: paths that differ in numbers alone mostly have one text."""
+    return compile(text, "<formula>", "exec")
 
 
 def source(formula: Formula, space: dict[str, Any], known: Sequence[Symbol] = ()) -> str:
@@ -186,7 +193,7 @@ def call(
 
     The key names the function for all paths; without one, it is recorded for this path alone.
     """
-    whole = key, recorder.precision, tuple(map(_form_of, arguments))
+    whole = key, recorder.dtype, tuple(map(_form_of, arguments))
     template = None if key is None else _TEMPLATES.get(whole)
     if template is None:
         template = Template(recorder.dtype, factory, arguments)

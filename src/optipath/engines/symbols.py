@@ -139,7 +139,6 @@ class Recorder:
 
     def __init__(self, dtype: np.dtype[Any]) -> None:
         self.dtype = dtype
-        self.precision = dtype.name  # NumPy makes it anew each time.
         self.kinds = {"bool": np.bool_, "int": np.int64, "float": dtype.type}
         self.symbols: list[Symbol] = []
         self.requirements: list[Any] = []

@@ -73,8 +73,12 @@ class Runnable:
         self.may_compile = len(program.steps) <= LONGEST and options.reproducible
         self.for_jax = ForJax(self)
         self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
-        limits = inputs.limits if options.reproducible else None
-        self.interpreter = Interpreter(program, self.carrier, self.dtype, limits)
+
+    @cached_property
+    def interpreter(self) -> Interpreter:
+        """What runs the program step by step."""
+        limits = self.inputs.limits if self.options.reproducible else None
+        return Interpreter(self.program, self.carrier, self.dtype, limits)
 
     def read_for_bounds(self, parameters: Mapping[str, Any]) -> Batch:
         """Return what is given, for both the bounds of light and the light."""
@@ -98,7 +102,7 @@ class Runnable:
 
     def recorded(self, forms: Mapping[InputKey, str], **options: Any) -> PathFormula:
         """Return what records formulas, for numbers of some forms, as `PathFormula` has options."""
-        inputs, kind = self.inputs, self.dtype.name
+        inputs, kind = self.inputs, self.options.dtype
         return PathFormula(self.program, kind, forms, inputs.limits, masks=inputs.masks, **options)
 
     def all_passed_as(self, form: str) -> dict[InputKey, str]:
