@@ -115,7 +115,7 @@ def source(formula: Formula, space: dict[str, Any], known: Sequence[Symbol] = ()
         else:
             lines.append(f"t{step.index} = {text}")
     results = ", ".join(written(formula.results))
-    (holds,) = written([formula.holds])
+    holds = " and ".join(written(formula.checks)) or "True"
     given = ", ".join(written([s for s in formula.inputs if s.index not in early]))
     body = [*lines, f"if {holds}:", f"    return ({results},)", "return None"]
     first += [f"def path({given}):", *[f"    {line}" for line in body], "return path"]
@@ -176,7 +176,8 @@ class Template:
     def _part(self, which: tuple[int, ...]) -> tuple[Formula, tuple[int, ...]]:
         if which not in self._parts:
             results = tuple([self.results[place] for place in which])
-            formula = Formula(self._recorder.dtype, results, tuple(self._recorder.requirements))
+            conditions = tuple(self._recorder.requirements)
+            formula = Formula(self._recorder.dtype, results, conditions, apart=True)
             places = tuple([int(symbol.operands[0]) for symbol in formula.inputs])
             self._parts[which] = formula, places
         return self._parts[which]

@@ -47,11 +47,17 @@ class Formula:
     axes: frozenset[int] = ONE_AXIS
     last: int | None = None
     earlier: frozenset[int] = frozenset()
+    apart: bool = False
 
     @cached_property
     def holds(self) -> Any:
         """Whether the results are what the path gives."""
         return reduce(lambda one, other: one & other, self.conditions, np.True_)
+
+    @property
+    def checks(self) -> tuple[Any, ...]:
+        """What must be true: all conditions in one, or apart, each by itself."""
+        return self.conditions if self.apart else (self.holds,)
 
     @property
     def needed(self) -> tuple[Symbol, ...]:
@@ -65,7 +71,7 @@ class Formula:
 
     @cached_property
     def _needed(self) -> tuple[tuple[Symbol, ...], dict[int, dict[int, int]]]:
-        ends = [output for output in (*self.results, self.holds) if isinstance(output, Symbol)]
+        ends = [output for output in (*self.results, *self.checks) if isinstance(output, Symbol)]
         wanted = {symbol.index for symbol in ends}
         results: list[Symbol] = []
         items: dict[int, dict[int, int]] = {}
@@ -148,7 +154,7 @@ class Formula:
         """How often each symbol is an operand or an output."""
         counts: dict[int, int] = {}
         operands = [o for step in self.steps for o in step.operands]
-        for operand in (*operands, *self.results, self.holds):
+        for operand in (*operands, *self.results, *self.checks):
             if isinstance(operand, Symbol):
                 counts[operand.index] = counts.get(operand.index, 0) + 1
         return counts

@@ -146,7 +146,8 @@ class PathFormula:
     def _formula(self, results: Sequence[Any]) -> Formula:
         made = self.recorder
         conditions = (*made.requirements, *self.holds)
-        return Formula(made.dtype, tuple(results), conditions, made.wide, made.constants)
+        about = tuple(results), conditions, made.wide, made.constants
+        return Formula(made.dtype, *about, apart=self.single)
 
     def _operands(self) -> list[Any]:
         """Return a symbol, or a number that is known, for each operand."""
@@ -190,10 +191,14 @@ class PathFormula:
             # What is looked at is the number that is given, not what is left of it.
             most = float(np.finfo(np.float64).max)
             self.recorder.wide[key] = float(max(low, -most)), float(min(high, most))
-        if always or form == MANY or (form == ONE and self.single):
+        if always or self.single or form == MANY:
             most = float(np.finfo(self.dtype).max)
-            self.recorder.require(kind(max(low, -most)) <= argument)
-            self.recorder.require(argument <= kind(min(high, most)))
+            ends = kind(max(low, -most)), kind(min(high, most))
+            if self.single:
+                self.recorder.require(self.recorder.record("within", argument, *ends))
+            else:
+                self.recorder.require(ends[0] <= argument)
+                self.recorder.require(argument <= ends[1])
         # From here on it is known, and no longer asked.
         argument.positive = low >= 0.0
         return argument

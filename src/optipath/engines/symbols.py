@@ -119,6 +119,7 @@ OPERATIONS = {
     "sin": About(np.sin, "float", "sin({0})"),
     "sqrt": About(np.sqrt, "float", "sqrt({0})"),
     "subtract": About(np.subtract, "same", "{0} - {1}"),
+    "within": About(lambda n, low, high: (low <= n) & (n <= high), "bool", "{1} <= {0} <= {2}"),
     "where": About(np.where, "same", "{1} if {0} else {2}"),
 }
 
@@ -204,11 +205,12 @@ class Recorder:
         self, key: Any, operation: str, operands: tuple[Any, ...], kind: str, axes: frozenset[int]
     ) -> Symbol:
         """Return the symbol of a key, recorded if it is not."""
-        if key not in self._known:
+        symbol = self._known.get(key)
+        if symbol is None:
             symbol = Symbol(self, operation, operands, kind, axes=axes, index=len(self.symbols))
             self._known[key] = symbol
             self.symbols.append(symbol)
-        return self._known[key]
+        return symbol
 
 
 def key_of(operand: Any) -> Any:

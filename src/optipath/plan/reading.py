@@ -95,11 +95,12 @@ class InputReader:
         self._widest = np.result_type(dtype, np.float64)
         # An engine of doubles reads what it is given as doubles, where it stands.
         self._known_kinds = "fd?" if dtype == np.float32 and not reproducible else "d?"
-        result = dict.fromkeys([o.input_key for o in program.operands if not o.known])
         computed = [value.name for value in inputs.computed]
-        self.keys = {n: [r for r in result if r.name == n] for n in (*inputs.open, *computed)}
-        affine = [key for key in result if key.is_affine]
-        self._affine = {key.name: [a for a in affine if a.name == key.name] for key in affine}
+        self.keys: dict[str, list[InputKey]] = {n: [] for n in (*inputs.open, *computed)}
+        for key in dict.fromkeys([o.input_key for o in program.operands if not o.known]):
+            self.keys[key.name].append(key)
+        affine = {n: [key for key in keys if key.is_affine] for n, keys in self.keys.items()}
+        self._affine = {name: keys for name, keys in affine.items() if keys}
         # A formula checks the range of a number that it reads, and of no other.
         shows = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
         self._plain = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -107,7 +108,7 @@ class Runnable:
 
     def all_passed_as(self, form: str) -> dict[InputKey, str]:
         """Return one form for every number that is not known."""
-        return dict.fromkeys([o.input_key for o in self.program.operands if not o.known], form)
+        return dict.fromkeys(chain(*self.reader.keys.values()), form)
 
     @cached_property
     def length(self) -> int | None:

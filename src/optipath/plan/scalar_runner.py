@@ -121,6 +121,8 @@ class ScalarRunner:
 
     def _defaults_hold(self) -> bool:
         """Tell whether elements of a user's own can be what they are by default."""
+        if not self.runner.first_values.ways:
+            return True
         opened = self.inputs.open.items()
         defaults = {name: p.resolve(p.default) for name, p in opened if p.default is not None}
         known = [way for way in self.runner.first_values.ways if way.are_known(defaults)]
