@@ -292,7 +292,7 @@ def test_a_thick_pile_of_30_layers_composes_and_goes_into_a_file_and_back():
             "lengths is .*; give a list of lengths, one for each layer",
         ),
         ({"lengths": 1e-3, **WAVE}, r"lengths is 0\.001; give a list of lengths"),
-        ({"lengths": op.Parameter("d"), **WAVE}, "cannot be the parameter 'd'; give a list"),
+        ({"lengths": op.Parameter("d"), **WAVE}, "cannot be a parameter; give a list"),
         ({"lengths": [-1.0], **WAVE}, r"lengths\[0\] is -1000 mm"),
         ({"lengths": ["1 deg"], **WAVE}, r"lengths\[0\]: '1 deg' is no length"),
         ({"lengths": [1.0], "wavelength": 500.0}, r"wavelength is 5e\+11 nm"),

@@ -87,7 +87,7 @@ def test_a_stack_goes_into_a_file_and_back(tmp_path):
         (1.5, r" is 1.5; give a list of two indices or more.* such as \[1, 1.5, 1.33\]"),
         ([1.5], "give a list of two indices or more"),
         (None, " is None; give a list of two indices or more"),
-        (op.Parameter("n"), "cannot be the parameter 'n'; give a list"),
+        (op.Parameter("n"), "cannot be a parameter; give a list"),
         ([1.0, 1.5 + 1j, 1.0], r"\[1\] is complex.*give the stack the lengths.*and the wavel"),
         ([1.0, op.Material(1.5, 0.1), 1.0], r"\[1\]\.k is 0\.1"),
         ([0.0, 1.5], r"\[0\] is 0"),

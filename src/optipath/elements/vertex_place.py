@@ -21,12 +21,11 @@ from optipath.values.agreement import Agreement, text_of
 from optipath.values.arrays import (
     check_broadcast,
     enough_for,
-    first_place,
     joint_shape,
     same,
 )
 from optipath.values.domains import Domain
-from optipath.values.jax_values import is_traced
+from optipath.values.jax_values import is_traced, namespace
 from optipath.values.operands import Operand, Operation
 from optipath.values.parameters import Parameter
 from optipath.values.precision import as_doubles, is_whole, rounding_of
@@ -155,21 +154,17 @@ class Coordinates(NamedTuple):
 class EventsDomain(Domain):
     """A number of an `Event` for each vertex of a chain."""
 
+    takes_parameters = False
+
     def described(self) -> str:
         return (
             "0 where light is reflected, 1 where it is refracted, 2 behind the end of a chain, or "
             "3 where there is no such chain"
         )
 
-    def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        raise ValueFault(f"{owner} cannot be a parameter; give {self.described()}")
-
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+    def allows(self, numbers: Any) -> Any:
         events = (Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT)
-        bad = ~np.isin(array, events) | (array.dtype.kind == "c")
-        if np.any(bad):
-            number = f"{array[bad].ravel()[0]:g}"
-            raise ValueFault(f"{owner} is {number}{first_place(bad)}; give {self.described()}")
+        return namespace(numbers).isin(numbers, np.array(events))
 
 
 EVENTS = EventsDomain("event", minimum=Event.REFLECTS, maximum=Event.CANNOT)

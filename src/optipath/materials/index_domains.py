@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
 from optipath.materials.material import LEAST, K, Material, RealPart, index_of
-from optipath.values.arrays import first_place, read_only
+from optipath.values.arrays import read_only
 from optipath.values.domains import Domain, in_unit_of
 from optipath.values.jax_values import namespace
 from optipath.values.precision import held, real_number
@@ -158,13 +158,10 @@ class IndexDomain(_IndexOrMaterial):
         there = namespace(numbers).isfinite(numbers) & (numbers != 0.0)
         return there & (n >= least) & (n <= most) & (k >= 0.0) & (k <= most)
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        bad = ~self.allows(array)
-        if np.any(bad):
-            value = array[bad].ravel()[0]
-            cure = ", and not both 0" if value == 0.0 else ""
-            cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else cure
-            raise ValueFault(f"{owner} is {value}{first_place(bad)}; give {self.described()}{cure}")
+    def refused(self, number: Any) -> tuple[str, str]:
+        if number.imag < 0.0:
+            return str(number), " (the field is exp(-iwt): k > 0 absorbs)"
+        return str(number), "" if number else ", and not both 0"
 
 
 @dataclass(frozen=True)
@@ -264,6 +261,7 @@ LOSSY = IndexDomain(
 class RowDomain(Domain):
     """Numbers of the parts of a stack, each of which may be an array or a parameter of its own."""
 
+    takes_parameters = False
     of_entries: ClassVar[Domain]
 
     def quickly_allows(self, value: Any) -> bool:
@@ -288,10 +286,6 @@ class RowDomain(Domain):
         if _is_row(value) and len(value) > MOST_MEDIA:
             raise ValueFault(f"{owner} has {len(value):,} entries; give {MOST_MEDIA:,} at most")
         raise ValueFault(f"{owner} is {shown(value)}; give {self.described()}")
-
-    def check_parameter(self, owner: str, parameter: Any) -> None:
-        name = parameter.name
-        raise ValueFault(f"{owner} cannot be the parameter '{name}'; give a list of parameters")
 
 
 def _is_row(value: Any) -> bool:

@@ -14,7 +14,7 @@ from optipath.values.angles import TURN, CosSin, range_cure, refused
 from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import Parameter
-from optipath.values.precision import doubles, held, rounding_of
+from optipath.values.precision import ENDLESS, doubles, held, rounding_of
 from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
 
 
@@ -27,6 +27,7 @@ class Domain:
     masks = False  # Whether light of what is not allowed is NaN, and nothing is refused.
     shows_in_light = False  # Whether light of wrong arrays is not finite, and tells it itself.
     takes_materials = False  # Whether a `Material` may stand for the number.
+    takes_parameters = True
 
     name: str
     dimension: str = ""
@@ -91,9 +92,6 @@ class Domain:
         low, high = held(numbers, (self.minimum, self.maximum))
         return inside & (numbers >= low) & (numbers <= high)
 
-    def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        """Say what is wrong with a parameter standing here, whatever its value; mostly nothing."""
-
     @property
     def unphysical(self) -> Domain:
         """The domain of values as they are measured, or of what amplifies; mostly the same."""
@@ -150,18 +148,20 @@ class Domain:
         return format_quantity(value, self.unit)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        if array.dtype.kind == "c":
+        if array.dtype.kind == "c" and not self.complex_parts:
             raise ValueFault(f"{owner} is complex; give {self.described()}")
-        if np.isinf(self.minimum) and np.isinf(self.maximum):
+        if self.interval == ENDLESS:
             return
         bad = ~self.allows(array)
         if np.any(bad):
-            text, hint = self.refused(float(array[bad].ravel()[0]))
+            text, hint = self.refused(array[bad].ravel()[0].item())
             cure = range_cure(self.described(), hint)
             raise ValueFault(Fault(f"{owner} is {text}{first_place(bad)}", cure))
 
-    def refused(self, number: float) -> tuple[str, str]:
+    def refused(self, number: Any) -> tuple[str, str]:
         """Return a number that is not allowed as a text, and what was meant; mostly nothing."""
+        if self.complex_parts:
+            return str(number), ""
         return refused(number, self.unit, (self.minimum, self.maximum))
 
 
@@ -176,6 +176,8 @@ def in_unit_of(value: Any, domain: Domain) -> Any:
 class Choice(Domain):
     """One word out of a few."""
 
+    takes_parameters = False
+
     words: tuple[str, ...] = ()
 
     def quickly_allows(self, value: Any) -> bool:
@@ -189,11 +191,8 @@ class Choice(Domain):
             return value
         raise ValueFault(f"{owner} is {shown(value)}{did_you_mean(value, self.words)}")
 
-    def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        raise ValueFault(f"{owner} cannot be a parameter; give {self.described()} when building")
-
     def described(self) -> str:
-        return "one word"
+        return f"one word of {', '.join(self.words)}"
 
 
 @dataclass(frozen=True)
@@ -229,7 +228,7 @@ class FractionDomain(Domain):
             raise ValueFault(f"'{text}' is in per cent; give a fraction, such as 0.5 for '50 %'")
         return super().parse(text)
 
-    def refused(self, number: float) -> tuple[str, str]:
+    def refused(self, number: Any) -> tuple[str, str]:
         text, nothing = super().refused(number)
         return text, f"; did you mean {number / 100.0:g}?" if 2.0 <= number <= 100.0 else nothing
 
@@ -277,9 +276,6 @@ class Refused(Domain):
     def check(self, owner: str, value: Any) -> NoReturn:
         raise ValueFault(f"{owner} {self.why}")
 
-    def check_parameter(self, owner: str, parameter: Parameter) -> NoReturn:
-        self.check(owner, parameter)
-
 
 _ROUNDING = 1e-12
 _GATHERED = 16.0
@@ -310,11 +306,6 @@ class AmplitudeDomain(Domain):
         # Cut off, so that squares of what is far too much do not overflow.
         parts = (xp.minimum(abs(part), 2.0) for part in (numbers.real, numbers.imag))
         return xp.hypot(*parts) <= 1.0 + _SINGLE_ROUNDING
-
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        bad = ~self.allows(array)
-        if np.any(bad):
-            raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from optipath.errors import OptipathError, ParameterError, ValueFault, collectin
 from optipath.values.angles import warn_of_degrees
 from optipath.values.arrays import as_argument
 from optipath.values.curve_value import CurveValue, check_computed, takes_0_alone
-from optipath.values.domains import Domain, in_unit_of
+from optipath.values.domains import Domain, Refused, in_unit_of
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import (
     AXES,
@@ -105,10 +105,12 @@ class Use:
         """Check what is known of the value: all of it, or a parameter's unit and default."""
         if self.checked:
             return
-        if not isinstance(self.value, Parameter):
+        if not isinstance(self.value, Parameter) or isinstance(self.domain, Refused):
             self.domain.check(self.owner, self.value)
             return
-        self.domain.check_parameter(self.owner, self.value)
+        if not self.domain.takes_parameters:
+            wanted = self.domain.described()
+            raise ValueFault(f"{self.owner} cannot be a parameter; give {wanted}")
         unit, offset = self.value.unit, self.value.offset_dimension
         is_other = bool(unit) and dimension_of(unit) != self.domain.dimension
         if is_other or (offset and offset != (self.domain.dimension or PURE)):
