@@ -255,10 +255,10 @@ OF_TABLES = [
 ]
 OF_ROTATIONS = [
     ({"strengths": 1.0}, "strengths of the rotation must be a row of one coefficient or more"),
-    ({"strengths": [1.0, 2.0]}, "has 2 strengths and 1 poles"),
+    ({"strengths": [1.0, 2.0]}, "has 2 of strengths and 1 of poles"),
     ({"strengths": [math.inf]}, "is inf; give a finite coefficient"),
     ({"poles": 1.0}, "poles of the rotation must be a row of one coefficient or more"),
-    ({"poles": [0.1, 0.2]}, "the rotation has 1 strengths and 2 poles"),
+    ({"poles": [0.1, 0.2]}, "the rotation has 1 of strengths and 2 of poles"),
     ({"poles": ["x"]}, "'x' is not a quantity"),
     ({"constant": math.inf}, "constant of the rotation is inf"),
     *(({"span": span}, "span of the rotation") for span in ("X1", (1.0,))),

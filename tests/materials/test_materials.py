@@ -133,7 +133,7 @@ REFUSED = [
     (lambda: POLE.at("500 nm"), "has no value"),
     (lambda: op.Material.tabulated(WAVELENGTHS, N, [0, 0, -1, 0]), "k of a table of n and k is -1"),
     (lambda: op.Material.tabulated([188, 500], [1, 2]), "is 188 metres, which is no wavelength"),
-    (lambda: op.Material.sellmeier([1], [1, 2]), "has 1 of b and 2 of c; give one for each"),
+    (lambda: op.Material.sellmeier([1], [1, 2]), "has 1 of b and 2 of c; give as many of each"),
     (lambda: op.Material.sellmeier([1]), "needs c, in square micrometres, or resonances"),
     (lambda: op.Material.of_curve(float), "give a Curve, or use Material.tabulated"),
     (lambda: op.Material.sellmeier(1, [1]), "b of a Sellmeier formula must be a row"),

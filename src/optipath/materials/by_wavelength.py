@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault
 from optipath.materials.formulas import (
     EVERYWHERE,
     MICROMETRES,
@@ -15,7 +15,6 @@ from optipath.materials.formulas import (
     Coefficient,
     FormulaCurve,
     coefficients,
-    several,
 )
 from optipath.materials.tables import Tabulated
 from optipath.values.arrays import as_argument, numbers_for
@@ -125,29 +124,25 @@ def drude_rotation(
     21.725
     """
     label = label_of("a rotation", label, "the rotation")
-    return curve_at(DrudeRotation(label, strengths, poles, constant, unit, span), wavelength)[0]
+    curve = DrudeRotation(label, strengths, poles, constant, unit, span=span)
+    return curve_at(curve, wavelength)[0]
 
 
+@dataclass(frozen=True, eq=False)
 class DrudeRotation(FormulaCurve):
     """A constant and the sum of A / (w^2 - C), w in um, times a unit; NaN at a resonance."""
 
     parts = ("value",)
-    strengths: tuple[Any, ...]
-    poles: tuple[Any, ...]
+    rows = ("strengths", "poles")
+    strengths: Any
+    poles: Any
     constant: Any
+    unit: str = field()
 
-    def __init__(
-        self, label: str, strengths: Any, poles: Any, constant: Any, unit: str, span: Any
-    ) -> None:
-        strengths = several(f"strengths of {label}", strengths)
-        poles = several(f"poles of {label}", poles)
-        if len(strengths) != len(poles):
-            raise ValueFault(
-                f"{label} has {len(strengths)} strengths and {len(poles)} poles; give one of each "
-                f"for each resonance"
-            )
-        super().__init__(label, span, constant=constant, strengths=strengths, poles=poles)
-        vars(self).update(unit=unit, _size=parse_quantity(f"1 {unit}", dimension_of(unit)))
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        size = parse_quantity(f"1 {self.unit}", dimension_of(self.unit))
+        vars(self).update(_size=size)
 
     def arguments(self) -> list[Coefficient]:
         rows = [*coefficients("strengths", self.strengths), *coefficients("poles", self.poles)]

@@ -77,7 +77,7 @@ def curve_of(
         _wanted(result.name, own),
         how,
         within=within,
-        requests={"name": result.name, **{k: v for k, v in how.items() if v != USUAL[k]}},
+        asked={"name": result.name, **{k: v for k, v in how.items() if v != USUAL[k]}},
         remedy=f"name another page, or mend a copy of {result.page.file} for Material.from_yaml",
     )
 
@@ -102,7 +102,7 @@ def page_curve(
     how: Mapping[str, str],
     *,
     within: tuple[float, float] | None = None,
-    requests: Mapping[str, str] | None = None,
+    asked: Mapping[str, str] | None = None,
     remedy: str = "",
 ) -> PageCurve:
     """Return the curve of a page."""
@@ -140,7 +140,7 @@ def page_curve(
         ]
         clear = None if how["extrapolate"] else within
         source = source_of(contents)
-        return PageCurve(label, curves, within=clear, place=about, source=source, requests=requests)
+        return PageCurve(label, curves, within=clear, place=about, source=source, asked=asked or {})
     except OptipathError as error:
         raise MaterialError(*[fault.cured(remedy) for fault in error.faults]) from None
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -53,21 +53,31 @@ NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
 Coefficient: TypeAlias = tuple[str, Any, Domain]
 
 
+@dataclass(frozen=True, eq=False)
 class FormulaCurve(Curve):
     """Numbers by a published formula, whose coefficients are numbers or parameters."""
 
-    parts: tuple[str, ...] = ("n", "k")
+    beyond = "take another formula"
+    rows: ClassVar[tuple[str, ...]] = ()
+    """The fields that are rows, of as many coefficients each."""
+    label: str
+    span: Any = field(default=EVERYWHERE, kw_only=True)
 
-    def __init__(self, label: str, span: Any, **arguments: Any) -> None:
-        vars(self).update(label=label, beyond="take another formula", **arguments)
+    def __post_init__(self) -> None:
+        rows = {n: several(f"{n} of {self.label}", getattr(self, n)) for n in self.rows}
+        if len(set(map(len, rows.values()))) > 1:
+            counts = listed([f"{len(row)} of {name}" for name, row in rows.items()])
+            raise ValueFault(f"{self.label} has {counts}; give as many of each")
+        vars(self).update(rows)
         faults: list[str] = []
         for name, value, domain in self.arguments():
             with collecting(faults, ValueFault):
-                _check(f"{name} of {label}", value, domain)
+                _check(f"{name} of {self.label}", value, domain)
         with collecting(faults, ValueFault):
-            vars(self).update(span=read_span(f"span of {label}", span))
+            vars(self).update(span=read_span(f"span of {self.label}", self.span))
         ValueFault.raise_for(faults)
-        vars(self).update({name: _as_floats(value) for name, value in arguments.items()})
+        own = {each.name for each in fields(self)} - {"label", "span", "unit"}
+        vars(self).update({name: _as_floats(getattr(self, name)) for name in own})
 
     @abstractmethod
     def arguments(self) -> list[Coefficient]:
@@ -136,6 +146,7 @@ def coefficients(name: str, row: Sequence[Any], domain: Domain = REAL) -> list[C
     return [(f"{name}[{place}]", value, domain) for place, value in enumerate(row)]
 
 
+@dataclass(frozen=True, eq=False)
 class Sellmeier(FormulaCurve):
     """n^2 = offset + the sum of B w^2 / (w^2 - C), with w in micrometres and C in their squares.
 
@@ -144,35 +155,21 @@ class Sellmeier(FormulaCurve):
     1.5
     """
 
-    b: tuple[Any, ...]
-    c: tuple[Any, ...] | None
-    resonances: tuple[Any, ...] | None
-    offset: Any
     parts = ("n",)
     unreal = "its formula has n^2 below 0 there, or a resonance"
+    b: Any
+    c: Any = None
+    resonances: Any = None
+    offset: Any = 1.0
 
-    def __init__(
-        self,
-        label: str,
-        b: Any,
-        c: Any = None,
-        resonances: Any = None,
-        offset: Any = 1.0,
-        span: Any = EVERYWHERE,
-    ) -> None:
-        if (c is None) == (resonances is None):
+    def __post_init__(self) -> None:
+        if (self.c is None) == (self.resonances is None):
             raise ValueFault(
-                f"{label} needs c, in square micrometres, or resonances, in micrometres; give one "
-                f"of the two"
+                f"{self.label} needs c, in square micrometres, or resonances, in micrometres; give "
+                f"one of the two"
             )
-        name, row = ("resonances", resonances) if c is None else ("c", c)
-        b, poles = several(f"b of {label}", b), several(f"{name} of {label}", row)
-        if len(b) != len(poles):
-            raise ValueFault(
-                f"{label} has {len(b)} of b and {len(poles)} of {name}; give one for each"
-            )
-        both = {"c": None, "resonances": None, name: poles}
-        super().__init__(label, span, b=b, offset=offset, **both)
+        vars(self).update(rows=("b", "resonances" if self.c is None else "c"))
+        super().__post_init__()
 
     def arguments(self) -> list[Coefficient]:
         poles = coefficients("c", self.c or ())
@@ -190,6 +187,7 @@ class Sellmeier(FormulaCurve):
         return offset, strengths, [p * p for p in poles] if self.c is None else poles
 
 
+@dataclass(frozen=True, eq=False)
 class Cauchy(FormulaCurve):
     """n = A + B / w^2 + C / w^4 + ..., with w in micrometres.
 
@@ -198,12 +196,9 @@ class Cauchy(FormulaCurve):
     1.516
     """
 
-    coefficients: tuple[Any, ...]
     parts = ("n",)
-
-    def __init__(self, label: str, coefficients: Any, *, span: Any = EVERYWHERE) -> None:
-        row = several(f"coefficients of {label}", coefficients)
-        super().__init__(label, span, coefficients=row)
+    rows = ("coefficients",)
+    coefficients: Any
 
     def arguments(self) -> list[Coefficient]:
         return coefficients("coefficients", self.coefficients)
@@ -215,23 +210,24 @@ class Cauchy(FormulaCurve):
 class Oscillators(FormulaCurve):
     """n and k of electrons that absorb, each with coefficients of its own; energies in eV."""
 
-    each: dict[str, Domain]
+    parts = ("n", "k")
+    each: Mapping[str, Domain]
     """The coefficients of an oscillator."""
-    oscillators: tuple[tuple[Any, ...], ...]
+    oscillators: Any
     background: Any
     unreal = "its coefficients give no permittivity that is a number"
 
-    def __init__(self, label: str, span: Any, oscillators: Any, **others: Any) -> None:
-        rows: Any = list(oscillators) if np.iterable(oscillators) else [()]
+    def __post_init__(self) -> None:
+        rows: Any = list(self.oscillators) if np.iterable(self.oscillators) else [()]
         if not all(hasattr(row, "__len__") and np.ndim(row) for row in rows):
             rows = [()]
         if any(len(row) != len(self.each) for row in rows):
             raise ValueFault(
-                f"oscillators of {label}: give a row of {len(self.each)} numbers for each, "
+                f"oscillators of {self.label}: give a row of {len(self.each)} numbers for each, "
                 f"[({', '.join(self.each)}), ...]"
             )
-        rows = tuple([several("an oscillator", row) for row in rows])
-        super().__init__(label, span, oscillators=rows, **others)
+        vars(self).update(oscillators=tuple([several("an oscillator", row) for row in rows]))
+        super().__post_init__()
 
     def arguments(self) -> list[Coefficient]:
         return [
@@ -250,6 +246,7 @@ class Oscillators(FormulaCurve):
         return [behind[at : at + count] for at in range(0, len(behind), count)]
 
 
+@dataclass(frozen=True, eq=False)
 class DrudeLorentz(Oscillators):
     """Electrons that are free, and bound ones.
 
@@ -262,20 +259,9 @@ class DrudeLorentz(Oscillators):
     each = {"strength": NOT_NEGATIVE, "energy": NOT_NEGATIVE, "damping": POSITIVE}  # noqa: RUF012
     plasma: Any
     damping: Any
-    strength: Any
-
-    def __init__(
-        self,
-        label: str,
-        plasma: Any,
-        damping: Any,
-        strength: Any = 1.0,
-        oscillators: Any = (),
-        background: Any = 1.0,
-        span: Any = EVERYWHERE,
-    ) -> None:
-        free = {"plasma": plasma, "damping": damping, "strength": strength}
-        super().__init__(label, span, oscillators, **free, background=background)
+    strength: Any = 1.0
+    oscillators: Any = ()
+    background: Any = 1.0
 
     def arguments(self) -> list[Coefficient]:
         background, *bound = super().arguments()
@@ -292,6 +278,7 @@ class DrudeLorentz(Oscillators):
 _FREE = ("plasma", "strength", "damping")
 
 
+@dataclass(frozen=True, eq=False)
 class TaucLorentz(Oscillators):
     """Oscillators above a gap, of amorphous films.
 
@@ -309,14 +296,15 @@ class TaucLorentz(Oscillators):
         "gap": NOT_NEGATIVE,
     }
 
-    def __init__(
-        self, label: str, oscillators: Any, background: Any = 1.0, span: Any = EVERYWHERE
-    ) -> None:
-        super().__init__(label, span, oscillators, background=background)
+    oscillators: Any
+    background: Any = 1.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
         if not self.oscillators:
             raise ValueFault(
-                f"{label} has no oscillators; give one or more, or n as a number for what is the "
-                f"same at all wavelengths"
+                f"{self.label} has no oscillators; give one or more, or n as a number for what is "
+                f"the same at all wavelengths"
             )
         limits = self._limits([value for _, value, _ in self.arguments()])
         ValueFault.raise_for(first_faults([law for law in limits if not law.is_open]))

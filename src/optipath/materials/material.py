@@ -264,7 +264,7 @@ class Material:
         1.5168
         """
         label = label_of("a material", name, "a Sellmeier formula")
-        curve = Sellmeier(label, b, c, resonances, offset, span)
+        curve = Sellmeier(label, b, c, resonances, offset, span=span)
         return cls.of_curve(curve, wavelength, k)
 
     @classmethod
@@ -341,7 +341,8 @@ class Material:
         Material 'silver', any wavelength
         """
         label = label_of("a material", name, "a Drude-Lorentz model")
-        curve = DrudeLorentz(label, plasma, damping, strength, oscillators, background, span)
+        of_all = plasma, damping, strength, oscillators, background
+        curve = DrudeLorentz(label, *of_all, span=span)
         return cls.of_curve(curve, wavelength)
 
     @classmethod
@@ -379,7 +380,7 @@ class Material:
         4.4573
         """
         label = label_of("a material", name, "a Tauc-Lorentz model")
-        return cls.of_curve(TaucLorentz(label, oscillators, background, span), wavelength)
+        return cls.of_curve(TaucLorentz(label, oscillators, background, span=span), wavelength)
 
     @classmethod
     def named(

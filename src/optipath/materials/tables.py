@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import KW_ONLY, dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,6 +25,7 @@ INTERPOLATIONS = ("linear", "monotone")
 EXTRAPOLATIONS = ("", "nearest", "linear")
 
 
+@dataclass(frozen=True, eq=False)
 class Tabulated(Curve):
     """Numbers at sampled wavelengths in metres, exact there.
 
@@ -32,29 +34,31 @@ class Tabulated(Curve):
     0.6
     """
 
-    def __init__(
-        self,
-        label: str,
-        parts: tuple[str, ...],
-        wavelengths: Any,
-        columns: Sequence[Any],
-        *,
-        interpolation: str = "linear",
-        extrapolate: str = "",
-        unit: str = "",
-    ) -> None:
-        faults = unknown("interpolation", interpolation, INTERPOLATIONS)
-        faults += unknown("extrapolate", extrapolate, EXTRAPOLATIONS)
+    beyond = 'ask for extrapolate="nearest" or "linear"'
+    label: str
+    parts: tuple[str, ...] = field()
+    wavelengths: Any
+    columns: Sequence[Any]
+    _: KW_ONLY
+    interpolation: str = "linear"
+    extrapolate: str = ""
+    unit: str = ""
+
+    def __post_init__(self) -> None:
+        label, names, rows = self.label, ("wavelengths", *self.parts), self.columns
+        beyond, by = self.extrapolate, self.interpolation
+        faults = unknown("interpolation", by, INTERPOLATIONS)
+        faults += unknown("extrapolate", beyond, EXTRAPOLATIONS)
         places, *values = [
             _samples(label, name, row, faults)
-            for name, row in zip(("wavelengths", *parts), (wavelengths, *columns), strict=True)
+            for name, row in zip(names, (self.wavelengths, *rows), strict=True)
         ]
         if not faults:
             faults += filter(None, [_wavelength_fault(label, places)])
             faults += [
                 f"{label} has {len(places)} wavelengths and {len(column)} of {part}; give one "
                 f"of each for each sample"
-                for part, column in zip(parts, values, strict=True)
+                for part, column in zip(self.parts, values, strict=True)
                 if len(column) != len(places)
             ]
         ValueFault.raise_for(faults)
@@ -64,28 +68,14 @@ class Tabulated(Curve):
         edges = np.repeat(places, 2)[:-1]  # Pieces meet at each sample, and halfway to the next.
         edges[1::2] += 0.5 * steps
         vars(self).update(
-            label=label,
-            parts=tuple(parts),
             wavelengths=locked(places),
             columns=tuple([locked(column) for column in values]),
-            interpolation=interpolation,
-            extrapolate=extrapolate,
-            unit=unit,
-            span=(0.0, np.inf) if extrapolate else (float(places[0]), float(places[-1])),
-            beyond='ask for extrapolate="nearest" or "linear"',
-            unreal="beyond its samples a straight line goes on" * (extrapolate == "linear"),
+            span=(0.0, np.inf) if beyond else (float(places[0]), float(places[-1])),
+            unreal="beyond its samples a straight line goes on" * (beyond == "linear"),
             _nodes=locked(np.repeat(places, 2)),
             _edges=locked(edges),
-            _cubics=tuple([_cubics(places, steps, v, interpolation, extrapolate) for v in values]),
+            _cubics=tuple([_cubics(places, steps, each, by, beyond) for each in values]),
         )
-
-    wavelengths: np.ndarray[Any, Any]
-    columns: tuple[np.ndarray[Any, Any], ...]
-    interpolation: str
-    extrapolate: str
-    _nodes: np.ndarray[Any, Any]
-    _edges: np.ndarray[Any, Any]
-    _cubics: tuple[tuple[np.ndarray[Any, Any], ...], ...]
 
     @property
     def content(self) -> tuple[Hashable, ...]:
@@ -106,10 +96,11 @@ class Tabulated(Curve):
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         # Each sample reaches halfway to its neighbours, so that it is exact on either side.
-        piece = xp.searchsorted(xp.asarray(self._edges), wavelength, side="right")
-        step = wavelength - xp.asarray(self._nodes)[piece]
+        own = vars(self)
+        piece = xp.searchsorted(xp.asarray(own["_edges"]), wavelength, side="right")
+        step = wavelength - xp.asarray(own["_nodes"])[piece]
         results = []
-        for cubic in self._cubics:
+        for cubic in own["_cubics"]:
             value, slope, second, third = [xp.asarray(each)[piece] for each in cubic]
             results.append(value + step * (slope + step * (second + step * third)))
         return tuple(results)
@@ -198,6 +189,7 @@ def _at_end(step: Any, next_step: Any, chord: Any, next_chord: Any) -> float:
     return float(slope)
 
 
+@dataclass(frozen=True, eq=False)
 class PageCurve(Curve):
     """Several curves as one, at the wavelengths at which all of them are known.
 
@@ -207,33 +199,24 @@ class PageCurve(Curve):
     (5e-07, 8e-07)
     """
 
-    curves: tuple[Curve, ...]
-    place: str
-    source: str
-    asked: Mapping[str, str]
+    label: str
+    curves: Sequence[Curve]
+    _: KW_ONLY
+    within: tuple[float, float] | None = None
+    place: str = ""
+    source: str = ""
+    asked: Mapping[str, str] = field(default_factory=dict)
 
-    def __init__(
-        self,
-        label: str,
-        curves: Sequence[Curve],
-        *,
-        within: tuple[float, float] | None = None,
-        place: str = "",
-        source: str = "",
-        requests: Mapping[str, str] | None = None,
-    ) -> None:
+    def __post_init__(self) -> None:
+        curves, within = self.curves, self.within
         lows, highs = zip(*[curve.span for curve in curves], strict=True)
         low, high = max(lows), min(highs)
         if low > high:
             spans = [f"{' and '.join(c.parts)} within {span_text(c.span)}" for c in curves]
-            raise ValueFault(f"{label} has {', and '.join(spans)}, where no wavelength is in both")
+            wrong = f"has {', and '.join(spans)}, where no wavelength is in both"
+            raise ValueFault(f"{self.label} {wrong}")
         vars(self).update(
-            label=label,
-            curves=tuple(curves),
             parts=tuple([part for curve in curves for part in curve.parts]),
-            place=place,
-            source=source,
-            asked=dict(requests or {}),
             span=(max(low, within[0]), min(high, within[1])) if within else (low, high),
             beyond="give k, or name another page" if within else "name another page",
         )
