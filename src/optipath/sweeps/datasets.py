@@ -125,21 +125,25 @@ def sweep_dataset(
 ) -> xr.Dataset:
     """Return the Dataset of a sweep; all is checked before the data of its variables are made."""
     import xarray as xr  # noqa: PLC0415 - not for tables
+    from xarray.indexes import PandasIndex  # noqa: PLC0415
 
     names, coords = variable_names(grid, plan), coordinates_of(grid, plan)
     dims = (*[DETECTOR] * (len(detectors_of(plan)) > 1), *grid.sizes)
-    found = data()
-
-    def variable(dims: Any, values: Any, attrs: Any) -> xr.Variable:
-        return xr.Variable(dims, values, attrs, fastpath=True)  # They are arrays already.
-
-    variables = {
-        names[each.variable]: variable(dims, found[each.variable], attributes_of(each))
+    found, indexes = data(), {}
+    variables: dict[str, Any] = {
+        names[each.variable]: (dims, found[each.variable], attributes_of(each))
         for each in QUANTITIES
     }
-    # Those of an index stay as they are, for xarray to make the index of.
-    whole = {name: each if name == each[0] else variable(*each) for name, each in coords.items()}
-    return xr.Dataset(variables, whole, dataset_attributes(path, plan, composer))
+    light = [*variables]
+    for name, (dimension, values, attrs) in coords.items():
+        variables[name] = variable = xr.Variable(dimension, values, attrs, fastpath=True)
+        if dimension == name:
+            indexes[name] = PandasIndex(values, name, values.dtype)
+            variables |= indexes[name].create_variables({name: variable})
+    # With indexes of one's own nothing is merged, which takes longer than a short run.
+    result = xr.Coordinates(variables, indexes).to_dataset().reset_coords(light)
+    result.attrs.update(dataset_attributes(path, plan, composer))
+    return result
 
 
 def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dict[str, str]]]:

@@ -36,7 +36,7 @@ FORMAT = 3
 """That of stores as they are written now."""
 
 _OTHER_PLACE = "take another name, or delete it"
-_RECORD, _MARKS = "blocks", "blocks/done"
+_RECORD, _MARKS, _BEGINNING = "blocks", "blocks/done", "beginning"
 
 
 class StoredArray(NamedTuple):
@@ -112,9 +112,11 @@ class BlockStore:
                 group = self.group.require_group(_RECORD)
                 group.attrs.update({**record, "seal": self.seal})
             self._check_record(record)
-            if _MARKS not in self.group:
-                _make(self.group, job)
-            self._check_arrays(job)
+            try:
+                beginning = self.marks.attrs.get(_BEGINNING)
+            except KeyError:  # They are what is made last.
+                beginning = _make(self, job)
+            self._check_arrays(job, beginning)
         except OptipathError:
             raise
         except Exception as fault:  # Zarr may raise anything.
@@ -137,21 +139,25 @@ class BlockStore:
         return zarr.open_group(files, mode=mode, zarr_format=2, use_consolidated=False)
 
     @cached_property
+    def marks(self) -> Any:
+        """The array of the marks, a row for each block."""
+        return self.group[_MARKS]
+
+    @cached_property
     def arrays(self) -> dict[str, Any]:
-        """The arrays that blocks fill, by name, and that of the marks."""
+        """The arrays that blocks fill, and those of the coordinates, by name."""
         # Opened at once, by the metadata in one place, by which xarray opens them as well.
-        known = zarr.open_consolidated(self.group.store, mode="r+", zarr_format=2)
-        return dict(known.arrays()) | {_MARKS: self.group[_MARKS]}
+        return dict(zarr.open_consolidated(self.group.store, mode="r+", zarr_format=2).arrays())
 
     def done(self, job: BlockJob) -> set[int]:
         """Return the numbers of intact blocks, and remove the marks of damaged ones."""
-        marks = self._marks(job.blocks)
+        marks = self._readable_marks(job.blocks)
         with ThreadPoolExecutor() as executor:
             intact = executor.map(self._is_intact, marks.values(), marks, map(job.places, marks))
             damaged = [number for number, good in zip(marks, intact, strict=True) if not good]
         with self._writing():
             for number in damaged:
-                self.arrays[_MARKS][number] = 0
+                self.marks[number] = 0
         if damaged:
             warn(
                 f"{len(damaged):,} of {job.blocks:,} blocks of '{self.place}' are damaged and "
@@ -162,7 +168,7 @@ class BlockStore:
 
     def holds(self, number: int) -> bool:
         """Tell whether a block is marked as done."""
-        return bool(np.any(self.arrays[_MARKS][number]))
+        return bool(np.any(self.marks[number]))
 
     def keep(
         self,
@@ -176,11 +182,11 @@ class BlockStore:
                 raise JobError(f"another job has come to be in '{self.place}'; {_OTHER_PLACE}")
             for name, each in values.items():
                 self.arrays[name][places[name]] = each
-            self.arrays[_MARKS][number] = self._mark(number, values)
+            self.marks[number] = self._mark(number, values)
 
     def discard_unused(self) -> None:
         """Remove it if this run has made it and no block of it is done."""
-        if self.is_new and not np.any(self.arrays[_MARKS][...]):
+        if self.is_new and not np.any(self.marks[...]):
             files, path = url_to_fs(self.place)
             with suppress(FileNotFoundError):  # Another run has done so.
                 files.rm(path, recursive=True)
@@ -194,12 +200,11 @@ class BlockStore:
             digest.update(np.ascontiguousarray(each).tobytes())
         return np.frombuffer(digest.digest(), np.uint8)
 
-    def _marks(self, blocks: int) -> dict[int, npt.NDArray[np.uint8]]:
+    def _readable_marks(self, blocks: int) -> dict[int, npt.NDArray[np.uint8]]:
         """Return the marks of all blocks that have one that can be read."""
-        array = self.arrays[_MARKS]
-        marks = _read(array, ...)
+        marks = _read(self.marks, ...)
         if marks is None:
-            marks = [_read(array, number) for number in range(blocks)]
+            marks = [_read(self.marks, number) for number in range(blocks)]
         return {n: mark for n, mark in enumerate(marks) if mark is not None and np.any(mark)}
 
     def _is_intact(
@@ -234,10 +239,26 @@ class BlockStore:
                 )
         raise JobError(f"the record of '{place}' is damaged; {_OTHER_PLACE}")
 
-    def _check_arrays(self, job: BlockJob) -> None:
+    def beginning(self, job: BlockJob) -> str:
+        """Return a digest of the files that no block writes again, empty where one is lost."""
+        files, place = url_to_fs(self.place)
+        names = [
+            f"{name}/{'.'.join('0' * len(each.dims) or '0')}" for name, each in job.coords.items()
+        ]
+        digest = sha256(self.seal.encode())
+        with suppress(OSError):
+            there = files.cat([f"{place}/{name}" for name in (".zmetadata", *names)])
+            for _, content in sorted(there.items()):
+                digest.update(sha256(content).digest())
+            return digest.hexdigest()
+        return ""
+
+    def _check_arrays(self, job: BlockJob, beginning: Any) -> None:
         """Refuse lost arrays, and coordinates that are damaged, which no block writes again."""
         damaged = sorted(job.arrays.keys() - self.arrays.keys())
-        for name, whole in job.coords.items():
+        # To read them one by one takes longer, and is for files that somebody has written anew.
+        same = beginning and beginning == self.beginning(job)
+        for name, whole in job.coords.items() if not same else ():
             there, given = _read(self.arrays[name], ...), whole.values
             if there is None or there.dtype != given.dtype or there.tobytes() != given.tobytes():
                 damaged.append(name)
@@ -262,12 +283,12 @@ def _is_free(place: str) -> bool:
         if not here.parent.is_dir():
             raise JobError(f"there is no folder '{here.parent}' for a store; make it first")
         for each in (here, *here.rglob("*")):  # Zarr would wait for who writes to a pipe.
-            if each.exists() and not (each.is_file() or each.is_dir()):
+            if not (each.is_file() or each.is_dir()) and each.exists():
                 raise JobError(f"'{each}' is there, and is no file; {_OTHER_PLACE}")
     try:
         files, path = url_to_fs(place)
         is_file = files.isfile(path)
-        is_free = not (files.exists(path) and files.ls(path))
+        is_free = not (files.exists(path) and files.ls(path, detail=False))
     except Exception as fault:  # noqa: BLE001 - each kind of place has its own
         raise JobError(f"'{place}' cannot be used as a store: {fault}") from None
     if is_file:
@@ -286,8 +307,9 @@ def _record_of(job: BlockJob) -> dict[str, Any]:
     return {"format": FORMAT, "lines": lines}
 
 
-def _make(group: zarr.Group, job: BlockJob) -> None:
+def _make(store: BlockStore, job: BlockJob) -> str:
     """Write the arrays of a job and its coordinates; the array of marks last."""
+    group = store.group
     # Coordinates that do not bear the name of a dimension are told apart by this attribute.
     others = [name for name, each in job.coords.items() if each.dims != (name,)]
     group.attrs.update({**job.attrs, **({"coordinates": " ".join(others)} if others else {})})
@@ -299,7 +321,11 @@ def _make(group: zarr.Group, job: BlockJob) -> None:
         _create(group, name, stored)[...] = whole.values
     # Version 2 of the format has all metadata at one place, and words, in its specification.
     zarr.consolidate_metadata(group.store, zarr_format=2)
-    _create(group, _MARKS, StoredArray(("block", "byte"), (job.blocks, 32), (1, 32), "uint8"))
+    attrs = {_BEGINNING: store.beginning(job)}
+    _create(
+        group, _MARKS, StoredArray(("block", "byte"), (job.blocks, 32), (1, 32), "uint8", attrs)
+    )
+    return attrs[_BEGINNING]
 
 
 def _create(group: zarr.Group, name: str, stored: StoredArray) -> Any:

@@ -10,7 +10,6 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from hashlib import sha256
-from importlib.metadata import version
 from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import dask.array as da
 import numpy as np
 import xarray as xr
+from dask.base import tokenize
 
 from optipath.errors import OptipathError, ParameterError, PathError, shown
 from optipath.light.quantities import QUANTITIES
@@ -60,10 +60,11 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
     tell = progress if callable(progress) else progress_line if progress else None
     if place.endswith(".nc"):
         return stored_in_netcdf(job, Path(place), scheduler, tell)
-    arrays, variables = keep_blocks(job, place, scheduler, tell).arrays, {}
+    store, variables = keep_blocks(job, place, scheduler, tell), {}
+    token = tokenize(store.place, store.seal)
     for name, each in job.arrays.items():
         nothing = np.empty((0,) * len(each.dims), each.dtype)  # Else Dask reads what it is like.
-        data = da.from_array(arrays[name], each.chunks, meta=nothing)  # type: ignore[no-untyped-call]
+        data = da.from_array(store.arrays[name], each.chunks, f"{name}-{token}", meta=nothing)  # type: ignore[no-untyped-call]
         variables[name] = each.dims, data, each.attrs
     return xr.Dataset(variables, job.dataset.coords, job.dataset.attrs)
 
@@ -134,7 +135,7 @@ class SweepJob:
     def identity(self) -> str:
         """All of what is computed, a line each, so that the first other one can be told."""
         recipe, grid = self.recipe, self.grid
-        lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
+        lines = [f"a sweep by optipath {self.attrs['optipath_version']}, layout {LAYOUT}"]
         lines += [f"option {name}: {value!r}" for name, value in recipe.options]
         lines += [f"element class {' '.join(each)}" for each in recipe.own]
         lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
