@@ -142,8 +142,10 @@ class _Lowering:
             return light
         light = self.lights[name, coupling.enters]
         presence = _presence(coupling.operations)
-        if presence is not None and presence.known and not np.any(presence.numbers()):
-            return light
+        if presence is not None and presence.known:
+            if not np.any(there := presence.numbers()):
+                return light
+            presence = None if np.all(there) else presence
         last = len(coupling.operations) - 1
         for place, operation in enumerate(operations):
             about = {"port": True, "bounces": int(coupling.reflects and place == last)}
@@ -156,7 +158,9 @@ class _Lowering:
         results: list[Operand | ResultOf] = []
         for argument in operation.arguments:
             if not isinstance(argument, ResultOf):
-                results.append(operand_of(argument))
+                operand = operand_of(argument)
+                is_bound = isinstance(operand.value, Parameter) and operand.value.bound
+                results.append(_number_bound(operand) if is_bound else operand)
                 continue
             inner = argument.operation
             if id(inner) not in known:
@@ -180,13 +184,18 @@ class _Lowering:
         return self._frame_behind(*places[1])
 
 
+def _number_bound(operand: Operand) -> Operand:
+    """Return the number to which a parameter is bound, or the operand where it is no such."""
+    number = operand.value.default
+    if type(number) is not float or operand.part not in ("value", "real", "imag"):
+        return operand
+    return Operand(0.0 if operand.part == "imag" else operand.value.placed(number))
+
+
 def _presence(operations: tuple[Operation, ...]) -> Operand | None:
     for operation in operations:
         for operand in operation.operands():
             value: Any = operand.value
             if isinstance(value, Parameter) and value.optional:
-                presence = Operand(value, "present")
-                if presence.known and np.all(presence.numbers()):
-                    return None
-                return presence
+                return Operand(value, "present")
     return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from optipath.values.curve_value import CurveValue
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
-from optipath.values.use import Use
+from optipath.values.use import Use, known_among
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -66,8 +66,19 @@ class Values:
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
         links, elements = self.graph.edges(keys=True), self.graph.nodes(data="element")
-        entries = dict.fromkeys((end, enters) for _, end, (_, enters) in links)
+        entries = dict.fromkeys([(end, enters) for _, end, (_, enters) in links])
         return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
+
+    @cached_property
+    def _known(self) -> list[tuple[Use, Any]]:
+        return known_among(self.uses)
+
+    @cached_property
+    def open_uses(self) -> list[Use]:
+        """The numbers that are given when the path is run, where they stand."""
+        return [
+            use for use in self.uses if isinstance(use.value, Parameter) and not use.value.bound
+        ]
 
     @cached_property
     def parameter_uses(self) -> list[Use]:
@@ -95,10 +106,8 @@ class Values:
     @cached_property
     def known_shapes(self) -> dict[str, tuple[int, ...]]:
         """The batch shapes of arrays and frames that are known, by owner."""
-        shapes = {}
-        for use in self.uses:
-            if not use.is_open and (shape := use.known_shape()):
-                shapes[_named(use)] = shape
+        known = [(use, numbers) for use, numbers in self._known if type(numbers) is not float]
+        shapes = {_named(use): use.batch_shape(numbers) for use, numbers in known}
         for name, frames in self.graph.nodes(data="frames"):
             shapes |= {f"frame of {name}.{port}": f.z.shape[:-1] for port, f in frames.items()}
         return {owner: shape for owner, shape in shapes.items() if shape}
@@ -127,11 +136,11 @@ class Values:
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},
             bound={name: p for name, p in self.parameters.items() if p.bound},
-            uses=tuple([use for use in self.uses if use.is_open]),
+            uses=tuple(self.open_uses),
             computed=self._computed,
             per_nanometre=tuple(per_nanometre),
             shapes=self.known_shapes,
-            known=tuple([use for use in self.uses if use.is_traced]),
+            known=tuple([use for use, numbers in self._known if is_traced(numbers)]),
             choices=tuple(self.graph.graph.get("choices", ())),
             masks=True in {use.domain.masks for use in self.uses},
             agreements=tuple([a for a in agreements if not a.waits_for_complex]),
@@ -152,7 +161,7 @@ class Values:
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
             another = isinstance(use.domain, WavelengthRange) and use.domain not in out_of
             again = bool(results) and self._is_taken_over(use)
-            if (_named(use) in faulty and not another) or follows or again:
+            if (faulty and _named(use) in faulty and not another) or follows or again:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.
@@ -179,13 +188,14 @@ class Values:
             name = use.value.name
             known = self.parameters[name]
             alike = use.value is self._placed[name] or use.value.same_specification(known)
-            yields = _yields(use.value) and not known.bound
-            if not alike and not (yields and dimension_of(known.unit) == "length"):
+            if not alike and not (
+                _yields(use.value) and not known.bound and dimension_of(known.unit) == "length"
+            ):
                 yield self._difference(use, known)
             if use.domain.tail != tails[name]:
                 yield f"parameter '{name}' at {use.owner} has another shape; use two names"
-            taken_over = self._is_taken_over(use)
-            if use.value.optional and not taken_over and not self._can_be_absent(use.owner):
+            is_told = not use.value.optional or self._is_taken_over(use)
+            if not is_told and not self._can_be_absent(use.owner):
                 why = f"{use.owner} cannot be left out; only what light goes straight through can"
                 yield f"parameter '{name}' is optional, but the element of {why}"
 

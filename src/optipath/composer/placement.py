@@ -63,7 +63,8 @@ def placement_faults(wiring: Wiring) -> list[str]:
     results = []
     for name, element in wiring.elements.items():
         frames = wiring.graph.nodes[name]["frames"]
-        if not broadcast_fault({port: f.z.shape[:-1] for port, f in frames.items()}):
+        shapes = {port: frame.z.shape[:-1] for port, frame in frames.items()}
+        if not shapes or not broadcast_fault(shapes):
             results += element.frame_faults(name, frames)
     for link in wiring.graph.edges(keys=True):
         fault = _self_placed_fault(wiring, link) or _link_fault(wiring, link)

@@ -171,7 +171,7 @@ def known_numbers(
 
     In a loop none is known: in twice the digits, what floats give as 0 or 1 may be neither.
     """
-    operands = [number_of(operand) for operand in program.operands]
+    operands = list(map(number_of, program.operands))
     outcomes: list[tuple[float, ...] | None] = []
     for evaluation in program.evaluations:
         arguments: list[float | None] = []
@@ -190,7 +190,8 @@ def _entries_of_steps(program: Program) -> list[Entries]:
     """Return what is known of the matrix of each step, or of what it emits."""
     numbers, outcomes = known_numbers(program)
     pairs = zip(program.operands, numbers, strict=True)
-    operands = [0.0 if n is None and vanishes(o) else _zero_or_one(n) for o, n in pairs]
+    # Which number it is seldom matters, but for these two.
+    operands = [0.0 if n is None and vanishes(o) else _ZERO_OR_ONE.get(n) for o, n in pairs]
     results: list[Entries] = []
     for evaluation, outcome in zip(program.evaluations, outcomes, strict=True):
         known: list[Entry] = []
@@ -201,7 +202,8 @@ def _entries_of_steps(program: Program) -> list[Entries]:
             # A result is that of a kernel without structure, of which there is one row.
             of_matrix = program.evaluations[argument.evaluation].kernel.structure is not None
             row = () if of_matrix else results[argument.evaluation][0]
-            known.append(_zero_or_one(row[argument.place]) if argument.place < len(row) else None)
+            number = row[argument.place] if argument.place < len(row) else None
+            known.append(_ZERO_OR_ONE.get(number))
         may_be_absent = evaluation.presence is not None
         results.append(_entries(evaluation.kernel, outcome, tuple(known), may_be_absent))
     # What adds lights up, and does nothing to them, is known as such.
@@ -209,9 +211,7 @@ def _entries_of_steps(program: Program) -> list[Entries]:
     return [_IDENTITY if place is None else results[place] for place in places]
 
 
-def _zero_or_one(number: Entry) -> Entry:
-    """Return 0, 1 or None: which number it is seldom matters, but for these two."""
-    return abs(number) if number in (0.0, 1.0) else None
+_ZERO_OR_ONE: dict[Entry, Entry] = {0.0: 0.0, 1.0: 1.0}
 
 
 @lru_cache(1024)

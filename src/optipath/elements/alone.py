@@ -18,7 +18,7 @@ from optipath.values.agreement import first_faults
 from optipath.values.arrays import broadcast_fault, enough_for, joint_shape
 from optipath.values.curve_value import CurveValue
 from optipath.values.operands import Operand
-from optipath.values.use import faults_of
+from optipath.values.use import faults_of, known_among
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -83,7 +83,7 @@ def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FR
         )
     uses = element.uses(owner) + element.uses_entered(owner, enters)
     open_ones = [_open(owner, use) for use in uses if use.is_open]
-    shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
+    shapes = {use.owner: use.batch_shape(numbers) for use, numbers in known_among(uses)}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
     faults = faults or first_faults(

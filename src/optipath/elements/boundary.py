@@ -81,7 +81,7 @@ class BoundaryElement(MediaOfBoundary, FourPort):
         return frames.get(port) or _refracted_frame(self, port, frames)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        if faults := x_faults(owner, frames):
+        if (faults := x_faults(owner, frames)) or not frames:
             return faults
         face: Any = self
         if {"in", "reflected"} <= frames.keys() and not Operand(face.incidence).known:

@@ -111,7 +111,7 @@ def arriving_waves(owner: str, element: Any, port: str) -> list[ArrivingWave]:
         return []
     incidence, measured = element.measured
     medium = element.medium_at(port)
-    if any(value is FOLLOWS for value in (incidence, measured, medium)):
+    if [value for value in (incidence, measured, medium) if value is FOLLOWS]:
         return []  # What it takes over is looked at.
     n, k = numbers_of(medium, INDEX)
     if type(k) is float and k == 0.0:

@@ -186,10 +186,10 @@ class Element(Chainable):
         return domains_of(cls)  # type: ignore[arg-type]
 
     @classmethod
-    def needs(cls, name: str) -> bool:
-        """Tell whether a field must be given, having no default."""
-        (field,) = [f for f in fields(cls) if f.name == name]  # type: ignore[arg-type]
-        return field.default is MISSING and field.default_factory is MISSING
+    def needed(cls) -> list[str]:
+        """Return the fields that must be given, having no default."""
+        every = fields(cls)  # type: ignore[arg-type]
+        return [f.name for f in every if f.default is f.default_factory is MISSING]
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number: its name, the value, its domain."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.path_values import Values
@@ -36,6 +37,7 @@ from optipath.paths.editing import (
     turn_to,
     turns_to,
 )
+from optipath.plan.inputs import Inputs
 from optipath.values.arrays import changed, same
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values
@@ -59,11 +61,11 @@ def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> 
         if placed and not for_good:
             cure = f"other parameters; bind it, by path.bind({min(placed)}=...)"
             raise ParameterError(f"'{min(placed)}' has no default that depends on {cure}")
-        known = Values(exchanged(known.graph, placed))
+        known = exchanged(known, placed)
         # A material may follow from a wavelength to which the path is bound already.
         wholly = {name: p for name, p in known.parameters.items() if p.bound}
-        known = Values(exchanged(known.graph, wholly))
-    parameters, inputs = known.parameters, known.inputs()
+        known = exchanged(known, wholly)
+    parameters = known.parameters
     known_names = [*parameters, *known.graph.graph["choices"]]
     bound: dict[str, Parameter] = {}
     faults: list[str] = []
@@ -80,16 +82,16 @@ def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> 
         else:
             try:
                 # Whether it is one of degrees is looked at below, where all is well.
-                known_value = axes_for(name, value, inputs.uses)
-                parameter = replace(parameters[name], default=known_value, bound=True)
+                parameter = parameters[name].with_default(axes_for(name, value, known.open_uses))
                 bound[name] = changed(parameter, bound=for_good)
             except OptipathError as fault:
                 faults += of_complex(fault.faults, known.uses, name, value)
-    result = Values(exchanged(known.graph, bound))
+    result = exchanged(known, bound)
     faults += result.faults
     if faults:
         raise ParameterError(*faults)
-    inputs.warn_of_angles(values)
+    uses = [use for use in known.open_uses if use.value.name in values]
+    Inputs(parameters, {}, tuple(uses), {}).warn_of_angles(values)
     return result
 
 
@@ -173,16 +175,18 @@ def cases_left(cases: Mapping[str, Case], known: Container[str]) -> dict[str, Ca
     return results
 
 
-def exchanged(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:
-    """Return a copy of a graph in which other values stand for parameters."""
-    copy = graph.copy()
+def exchanged(known: Values, values: Mapping[str, Any]) -> Values:
+    """Return the values of a copy of a path in which others stand for parameters."""
+    copy = known.graph.copy()
+    uses = [use for use in known.parameter_uses if use.value.name in values]
+    owners = {use.owner.partition(".")[0] for use in uses}
     with checked_later():  # The check of the whole path names parameters and nodes.
-        for node in copy.nodes.values():
-            if any(parameter.name in values for parameter in node["element"].parameters()):
+        for name, node in copy.nodes.items():
+            if name in owners:
                 node["element"] = _with_other_fields(node["element"], values)
     for link in copy.edges.values():
         link["azimuth"] = _exchanged(link["azimuth"], values)
-    return copy
+    return Values(copy)
 
 
 def _with_other_fields(whole: Any, values: Mapping[str, Any]) -> Any:
@@ -221,9 +225,9 @@ class PlaceChoice:
 
     def __post_init__(self) -> None:
         pairs = self.behind.items() if isinstance(self.behind, Mapping) else ()
-        texts = [self.node, *(text for pair in pairs for text in pair)]
-        named = pairs and all(isinstance(text, str) and text.strip() for text in texts)
-        if not named or not isinstance(self.help, str):
+        texts = [self.node, *chain(*pairs)]
+        unnamed = [text for text in texts if not isinstance(text, str) or not text.strip()]
+        if not pairs or unnamed or not isinstance(self.help, str):
             given = f"for each word, not {shown(self.node)} and {shown(self.behind)}"
             raise PathError(f"a choice of places is a node and, behind, a port {given}")
         object.__setattr__(self, "behind", dict(self.behind))

@@ -344,8 +344,9 @@ def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap:
     link = _link_of(graph, leaves, enters, faults)
     if graph.has_edge(*link):
         raise PathError(f"link '{link_text(link)}' is there already; remove the second one")
-    turn = stored_value(f"link '{leaves} -> {enters}' azimuth", azimuth, ANGLE)
-    graph.add_edge(*link, azimuth=turn, tap=tap)
+    if azimuth is not None:
+        azimuth = stored_value(f"link '{leaves} -> {enters}' azimuth", azimuth, ANGLE)
+    graph.add_edge(*link, azimuth=azimuth, tap=tap)
 
 
 def disconnect(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> None:

@@ -85,14 +85,14 @@ class PathGraph(Chainable):
         if not isinstance(description, str):
             raise PathError(f"the description of a path must be a text, not {shown(description)}")
         cases = {} if cases is None else cases
-        if not isinstance(cases, Mapping) or not all(isinstance(c, Case) for c in cases.values()):
+        if not isinstance(cases, Mapping) or [c for c in cases.values() if not isinstance(c, Case)]:
             raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
         self.description = description
         self.cases = dict(cases)
         if faults := unknown("loops", loops, LOOPS):
             raise PathError(*faults)
         names = entries_of("declared", "names of parameters", declared, PathError)
-        if not all(isinstance(name, str) for name in names):
+        if [name for name in names if not isinstance(name, str)]:
             raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
         self._graph = nx.MultiDiGraph(declared=names, loops=loops, choices={})
         # What the graph has been composed to, until it changes.
@@ -337,7 +337,7 @@ class PathGraph(Chainable):
         if faults := choice_faults(self._graph, choice):
             raise PathError(*faults)
         self._graph.graph["choices"] = self.choices | {name: choice}
-        self._changed()
+        self._plans.clear()
 
     def __rshift__(self, behind: Element | NamedElement | Self) -> Self:
         """Return the path in which light goes on from here to what stands behind.
@@ -816,6 +816,11 @@ class Node(Chainable):
 
     def __repr__(self) -> str:
         return f"Node '{self._text}'"
+
+
+def values_of(path: PathGraph) -> Values:
+    """Return the values of a path, gathered once until it changes."""
+    return path._values  # noqa: SLF001 - its own
 
 
 def path_of(first: Any) -> PathGraph:

@@ -171,7 +171,8 @@ def warn_of_degrees(what: str, value: Any, place: Callable[[Any], Any] | None = 
 
     The sentence is the same for all values, so that Python shows it once a line.
     """
-    if type(value) is float and (-TURN <= value <= TURN or math.isinf(value)):
+    is_small = type(value) is float and (-TURN <= value <= TURN or math.isinf(value))
+    if is_small or isinstance(value, str):
         return
     numbers = _plain_numbers(value)
     beyond = np.abs(numbers) > TURN

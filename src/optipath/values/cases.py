@@ -46,7 +46,10 @@ class Case:
         if not isinstance(self.note, str):
             faults.append(f"the note of a case must be a text, not {shown(self.note)}")
         ParameterError.raise_for(faults)
-        values = {str(name): read_only(value) for name, value in self.values.items()}
+        values = {
+            str(name): value if type(value) is float else read_only(value)
+            for name, value in self.values.items()
+        }
         published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "published", published)
@@ -63,6 +66,8 @@ def name_faults(name: str) -> list[str]:
 
 
 def _numbers(name: Any, stokes: Any) -> tuple[float, ...]:
+    if type(stokes) is tuple and {*map(type, stokes)} == {float}:
+        return stokes
     array = array_of(f"what is published at {name}", stokes, ParameterError)
     if array.ndim != 1 or array.dtype.kind not in "iuf":
         raise ParameterError(f"what is published at {name} must be numbers, not {shown(stokes)}")

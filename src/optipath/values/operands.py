@@ -17,7 +17,7 @@ from optipath.values.parameters import Parameter
 from optipath.values.precision import affine, doubles
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterator, Mapping
+    from collections.abc import Callable, Hashable, Mapping
 
     from optipath.kernels.kernel import Kernel, KernelFamily
     from optipath.kernels.primitives import Primitives
@@ -249,12 +249,11 @@ class Operation:
                 arguments.append(read(argument))
         return self.kernel.by_method(method).made_for(xp)(*arguments)
 
-    def operands(self) -> Iterator[Operand]:
-        """Yield the operands that it is given, and those behind the results that it is given."""
+    def operands(self) -> list[Operand]:
+        """Return the operands that it is given, and those behind the results that it is given."""
         inner = {id(a.operation): a.operation for a in self.arguments if isinstance(a, ResultOf)}
-        for operation in inner.values():
-            yield from operation.operands()
-        yield from (operand_of(a) for a in self.arguments if not isinstance(a, ResultOf))
+        behind = [operand for operation in inner.values() for operand in operation.operands()]
+        return behind + [operand_of(a) for a in self.arguments if not isinstance(a, ResultOf)]
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]

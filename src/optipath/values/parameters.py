@@ -49,7 +49,7 @@ from optipath.values.units import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Hashable, Iterable, Mapping
 
     import numpy.typing as npt
 
@@ -67,7 +67,7 @@ _OF_NUMPY: dict[Any, Callable[..., Any]] = {
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
 
-_ASIDE = {"scale", "offset", "offset_dimension", "is_material"}
+_SAID = ("name", "unit", "minimum", "maximum", "help", "words", "optional", "bound")
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,28 +154,45 @@ class Parameter:
             warn_of_limits(self)
         self._read_limits_and_words()
         self._read_shape()
+        argument = self.default
+        self._read_default()
+        if warns and argument is not None:
+            warn_of_degrees(self.called, argument)
+
+    def _read_default(self) -> None:
         if isinstance(self.default, CosSin):
             raise ParameterError(f"{self.called} cannot keep a cosine and a sine; give an angle")
-        if (argument := self.default) is not None:
+        if type(argument := self.default) is float:
+            self.resolve(argument)
+        elif argument is not None:
             limits = self.minimum, self.maximum
             default = read_only(self._as_number(argument), limits, widened=False)
             vars(self).update(default=default, is_material=is_material(argument))
             self.resolve(default)
-            if warns:
-                warn_of_degrees(self.called, argument)
         elif self.bound:
             raise ParameterError(f"{self.called} is bound but has no value; give one")
+
+    def with_default(self, value: Any) -> Self:
+        """Return the same with another value by default; whoever gives it looks for degrees."""
+        unit = self.unit or _first_unit([value])
+        result = changed(self, default=value, unit=unit, is_material=False)
+        result._read_default()  # noqa: SLF001 - its own
+        return result
 
     def _read_limits_and_words(self) -> None:
         """Put numbers in place of texts."""
         faults: list[str] = []
         numbers = []
         for what, value in _limits_and_words(self):
+            if type(value) is float:
+                numbers.append(value)
+                continue
             with collecting(faults, ParameterError):
-                numbers.append(value if type(value) is float else self._one_number(what, value))
+                numbers.append(self._one_number(what, value))
         ParameterError.raise_for(faults)
         low, high, *words = numbers
-        low, high = (float(doubles(np.asarray(end))) for end in (low, high))
+        if not type(low) is type(high) is float:
+            low, high = [float(doubles(np.asarray(end))) for end in (low, high)]
         if not low <= high:
             limits = f"{self.text(low)} .. {self.text(high)}"
             raise ParameterError(f"{self.called} has the range {limits}; begin with the lower end")
@@ -191,6 +208,8 @@ class Parameter:
 
     def _one_number(self, what: str, value: Any) -> Any:
         read = numbers_for(what, value, partial(self._quantity, default_unit=""), ParameterError)
+        if type(read) is float:
+            return read
         array = as_argument(what, read, ParameterError)
         if array.ndim or array.dtype.kind not in "iuf":
             raise ParameterError(f"{what} must be a number, not {shown(value)}")
@@ -224,8 +243,8 @@ class Parameter:
 
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
-        message = vars(self).keys() - _ASIDE
-        return self is other or all(map(same, *[map(vars(p).get, message) for p in (self, other)]))
+        plain, others = [[vars(p)[name] for name in _SAID] for p in (self, other)]
+        return self is other or (plain == others and same(self.default, other.default))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
@@ -448,7 +467,7 @@ class Parameter:
 
     def span_for(self, limits: tuple[float, float]) -> tuple[float, float]:
         """Return the limits of the value, by those of what stands in its place."""
-        low, high = ((end - self.offset) / self.scale for end in limits)
+        low, high = [(end - self.offset) / self.scale for end in limits]
         return min(low, high), max(low, high)
 
     def _parsed(self, text: str) -> tuple[Any, str]:
@@ -539,11 +558,11 @@ _KINDS: dict[str, tuple[type, str]] = {
 }
 
 
-def _limits_and_words(parameter: Parameter) -> Iterator[tuple[str, Any]]:
-    """Yield the limits and the words of a parameter: what sentences call each, and its number."""
+def _limits_and_words(parameter: Parameter) -> list[tuple[str, Any]]:
+    """Return the limits and the words of a parameter: what sentences call each, and its number."""
     of = f"of parameter '{parameter.name}'"
-    yield from ((f"the {end} {of}", getattr(parameter, end)) for end in ("minimum", "maximum"))
-    yield from ((f"the word '{word}' {of}", value) for word, value in parameter.words.items())
+    limits = [(f"the {end} {of}", getattr(parameter, end)) for end in ("minimum", "maximum")]
+    return limits + [(f"the word '{word}' {of}", value) for word, value in parameter.words.items()]
 
 
 def warn_of_limits(parameter: Parameter, place: Callable[[Any], Any] | None = None) -> None:
@@ -559,8 +578,8 @@ def is_material(argument: Any) -> bool:
 
 def _first_unit(values: list[Any]) -> str:
     """Return the unit of the first text that has one; none where there is none."""
-    several = chain(*(v if isinstance(v, (list, tuple)) else [v] for v in values))
-    units = (unit_of(text) for text in several if isinstance(text, str))
+    several = chain(*[v if isinstance(v, (list, tuple)) else [v] for v in values])
+    units = [unit_of(text) for text in several if isinstance(text, str)]
     return next(filter(None, units), "")
 
 

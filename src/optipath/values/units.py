@@ -137,7 +137,7 @@ def in_unit(value: float, unit: str) -> float:
     >>> in_unit(2e-05, "mm")
     0.02
     """
-    return float(_candidates(float(value), UNITS[unit])[0]) if unit else float(value)
+    return float(_written(float(value), UNITS[unit])[0]) if unit else float(value)
 
 
 def format_quantity(value: complex, unit: str) -> str:
@@ -155,10 +155,8 @@ def format_quantity(value: complex, unit: str) -> str:
     value, of_unit = float(value), UNITS[unit]
     if not math.isfinite(value):
         return f"{value!r} {unit}"
-    for number in _candidates(value, of_unit):
-        if _in_base_units(number, of_unit) == value:
-            return f"{number} {unit}"
-    return f"{value!r} {BASE_UNITS[of_unit.dimension]}"
+    number, is_exact = _written(value, of_unit)
+    return f"{number} {unit}" if is_exact else f"{value!r} {BASE_UNITS[of_unit.dimension]}"
 
 
 def with_article(dimension: str) -> str:
@@ -173,15 +171,17 @@ def _in_base_units(number: str, unit: Unit) -> float:
     return float(f"{mantissa}e{int(exponent or 0) + unit.power}") * unit.size
 
 
-def _candidates(value: float, unit: Unit) -> list[str]:
-    """Return numbers that a value may be in a unit, those that give it back first."""
-    if unit.size == 1.0:
-        numbers = [repr(value)]
-    else:
-        numbers = [f"{value / unit.size:.{digits}g}" for digits in _DIGITS]
-    moved = [Decimal(number).scaleb(-unit.power) for number in numbers]
-    results = [text for number in moved for text in (_plainly(number), str(number))]
-    return sorted(results, key=lambda number: _in_base_units(number, unit) != value)
+def _written(value: float, unit: Unit) -> tuple[str, bool]:
+    """Return the number that a value is in a unit, and whether reading it gives the value back."""
+    first = ""
+    for digits in _DIGITS if unit.size != 1.0 else [0]:
+        number = f"{value / unit.size:.{digits}g}" if digits else repr(value)
+        moved = Decimal(number).scaleb(-unit.power)
+        for text in (_plainly(moved), str(moved)):
+            if _in_base_units(text, unit) == value:
+                return text, True
+            first = first or text
+    return first, False
 
 
 def _plainly(number: Decimal | float) -> str:

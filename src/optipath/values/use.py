@@ -63,16 +63,6 @@ class Use:
             return [self]
         return [*[Use(*place) for place in value.argument_places(self.owner)], self]
 
-    @property
-    def _numbers(self) -> Any:
-        """The value; of a parameter, its default."""
-        return self.value.default if isinstance(self.value, Parameter) else self.value
-
-    @property
-    def is_traced(self) -> bool:
-        """Whether the value is known, but to JAX alone, which traces it."""
-        return not self.is_open and is_traced(self._numbers)
-
     def batch_shape(self, numbers: Any) -> tuple[int, ...]:
         """Return the shape of numbers for this place, the axes of one value left out."""
         if type(numbers) is float:
@@ -82,17 +72,14 @@ class Use:
             return tuple(shape[: len(shape) - len(self.domain.tail)])
         return ()
 
-    def known_shape(self) -> tuple[int, ...]:
-        """Return the batch shape of a value that is known."""
-        return self.batch_shape(self._numbers)
-
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths a value that JAX traces is allowed; True for any other."""
         value: Any = self.value
-        numbers: Any = resolved[value.name].value if self.is_open else self._numbers
+        numbers: Any = value
+        if is_parameter := isinstance(value, Parameter):
+            numbers = value.default if value.bound else resolved[value.name].value
         if not is_traced(numbers):
             return True
-        is_parameter = isinstance(value, Parameter)
         results = [self.domain.allows(value.placed(numbers) if is_parameter else numbers)]
         if is_parameter:
             # What is not looked at, as behind the end of a chain, may be no number.
@@ -105,32 +92,21 @@ class Use:
         """Check what is known of the value: all of it, or a parameter's unit and default."""
         if self.checked:
             return
-        if not isinstance(self.value, Parameter) or isinstance(self.domain, Refused):
-            self.domain.check(self.owner, self.value)
+        value, domain = self.value, self.domain
+        if not isinstance(value, Parameter) or isinstance(domain, Refused):
+            domain.check(self.owner, value)
             return
-        if not self.domain.takes_parameters:
-            wanted = self.domain.described()
+        if not domain.takes_parameters:
+            wanted = domain.described()
             raise ValueFault(f"{self.owner} cannot be a parameter; give {wanted}")
-        unit, offset = self.value.unit, self.value.offset_dimension
-        is_other = bool(unit) and dimension_of(unit) != self.domain.dimension
-        if is_other or (offset and offset != (self.domain.dimension or PURE)):
+        unit, offset = value.unit, value.offset_dimension
+        is_other = bool(unit) and dimension_of(unit) != domain.dimension
+        if is_other or (offset and offset != (domain.dimension or PURE)):
             what = f"is in {unit}" if is_other else f"has an offset that is {with_article(offset)}"
             raise ValueFault(
-                f"parameter '{self.value.name}' {what}, but {self.owner} takes "
-                f"{self.domain.described()}; change its unit or where it is used"
+                f"parameter '{value.name}' {what}, but {self.owner} takes "
+                f"{domain.described()}; change its unit or where it is used"
             )
-        self._check_multiple()
-        default = self.value.default
-        if self.value.is_material:
-            self.refuse_material(default)
-        if type(default) is float:  # Whether it is in the range was asked when it was made.
-            self.check_arguments(default)
-        elif default is not None:
-            self.check_arguments(*self.value.resolve(default))
-
-    def _check_multiple(self) -> None:
-        """Check that a multiple with an offset can stand here."""
-        value, domain = self.value, self.domain
         if domain.tail and not value.is_signed:
             raise ValueFault(
                 f"{self.owner} is {value.formula}, but takes several numbers that belong together; "
@@ -141,6 +117,13 @@ class Use:
                 f"{value.formula_of(value.spoken)} is 0 at no wavelength, and {self.owner} takes "
                 f"{domain.described()}"
             )
+        default = value.default
+        if value.is_material:
+            self.refuse_material(default)
+        if type(default) is float:  # Whether it is in the range was asked when it was made.
+            self.check_arguments(default)
+        elif default is not None:
+            self.check_arguments(*value.resolve(default))
 
     def refuse_material(self, material: Any) -> None:
         """Raise where a `Material` is given for what is no index of refraction."""
@@ -161,11 +144,22 @@ class Use:
         if isinstance(value, CurveValue):
             check_computed(value, self.owner, self.domain, numbers, arguments)
             return
+        if value.offset == 0.0 and value.scale == 1.0 and self.domain.quickly_allows(numbers):
+            return
         placed = affine(value.scale, value.offset, numbers, self.domain.interval)
         if not value.is_signed and not np.all(present):
             placed = np.where(present, placed, 0.0)
         where = self.owner if placed is numbers else f"{self.owner}, as {value.formula}"
         self.domain.check(f"parameter '{value.name}' (at {where})", placed)
+
+
+def known_among(uses: Iterable[Use]) -> list[tuple[Use, Any]]:
+    """Return the values that are known, each with what it is; of a parameter, its default."""
+    return [
+        (use, value.default if isinstance(value, Parameter) else value)
+        for use in uses
+        if not isinstance(value := use.value, Parameter) or value.bound
+    ]
 
 
 T = TypeVar("T")
@@ -238,7 +232,7 @@ def stored_value(owner: str, value: Any, domain: Domain) -> Any:
         warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
     if warns and not value.unit:
         warn_of_limits(value, value.placed)
-    return in_unit_of(value, domain)
+    return value if value.unit else in_unit_of(value, domain)
 
 
 def refuse(faults: list[str]) -> None:

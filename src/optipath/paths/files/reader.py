@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.composer.composer import checked
-from optipath.composer.path_values import Values
 from optipath.composer.wiring import LOOPS
 from optipath.elements.known_elements import element_class
 from optipath.errors import Fault, OptipathError, PathError, PresetError, did_you_mean, shown
@@ -15,7 +14,7 @@ from optipath.materials.quantities import ANGLE
 from optipath.paths.files import schema
 from optipath.paths.files.schema import FORMAT, Faults, checked_table, each_key, parsed
 from optipath.paths.files.values import decode, decode_argument, text_or_number, wavelength_names
-from optipath.paths.path_graph import PathGraph
+from optipath.paths.path_graph import PathGraph, values_of
 from optipath.values.cases import Case, name_faults
 from optipath.values.parameters import Parameter
 from optipath.values.units import USUAL_UNITS, dimension_of, with_article
@@ -25,6 +24,7 @@ from optipath.values.wavelength import WAVELENGTH, Wavelength
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.composer.path_values import Values
     from optipath.elements.element import Element
     from optipath.values.use import Use
 
@@ -73,11 +73,11 @@ def read(document: Table) -> PathGraph:
     missing = sections["elements"].keys() - {*path}
     for number, table in enumerate(document.get("links", ())):
         ends = [table.get(key) for key in ("from", "to")] if isinstance(table, dict) else []
-        if missing.isdisjoint(str(end).partition(".")[0] for end in ends):
+        if missing.isdisjoint([str(end).partition(".")[0] for end in ends]):
             faults.attempt(f"links[{number}]", _connect, path, table, parameters)
             faults.refuse(_ENOUGH)
     faults.refuse()
-    values = Values(path.graph)
+    values = values_of(path)
     faults += _unit_faults(values, parameters)
     faults.refuse()
     checked(values)
@@ -164,7 +164,7 @@ def read_element(
     of_kind = element_class(kind)
     domains = of_kind.domains()
     known = {"kind": str, "frames": dict} | dict.fromkeys(domains, object)
-    checked_table(table, known, filter(of_kind.needs, domains))
+    checked_table(table, known, of_kind.needed())
     given = {name: table[name] for name in domains if name in table}
     values = each_key(given, lambda name, raw: decode(raw, domains[name], parameters))
     frames = each_key(table.get("frames", {}), _frame, ".frames")
@@ -225,7 +225,8 @@ def _read_cases(
                 faults.append(Fault(wrong, place=f"{place}.published.{name}"))
         if len(faults) == before:
             given = {name: decoded[name, repr(raw)] for name, raw in arguments.items()}
-            path.cases[case] = Case(given, published, table.get("note", ""))
+            numbers = {name: tuple(map(float, stokes)) for name, stokes in published.items()}
+            path.cases[case] = Case(given, numbers, table.get("note", ""))
         faults.refuse(_ENOUGH)
 
 
@@ -238,4 +239,5 @@ def _argument(raw: Any, parameter: Parameter, uses: list[Use]) -> Any:
 
 def _is_stokes(stokes: Any) -> bool:
     four = isinstance(stokes, list) and len(stokes) == 4
-    return four and all(type(each) in (int, float) and abs(each) < 1e308 for each in stokes)
+    are_numbers = four and {*map(type, stokes)} <= {int, float}
+    return are_numbers and [abs(each) < 1e308 for each in stokes] == [True] * 4

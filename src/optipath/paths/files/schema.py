@@ -170,7 +170,7 @@ def parsed(text: str, source: str) -> dict[str, Any]:
 
 def names_in(folder: Path) -> list[str]:
     """Return the names of the files of a folder, sorted; none where there is no such folder."""
-    return sorted(path.stem for path in folder.glob("*.toml"))
+    return sorted([path.stem for path in folder.glob("*.toml")])
 
 
 def file_of(argument: Any, what: str, folder: Path, see: str) -> Path:

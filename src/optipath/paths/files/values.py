@@ -56,7 +56,7 @@ from optipath.values.use import axes_for
 from optipath.values.wavelength import WAVELENGTH, Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Mapping
 
     from optipath.materials.formulas import FormulaCurve
     from optipath.values.curve import Curve
@@ -169,12 +169,12 @@ def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) ->
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))
-    return _number(raw, parameter.unit)
+    return number_of(raw, parameter.unit)
 
 
 def text_or_number(raw: Any, unit: str) -> Any:
     """Return a text as it is, which a `Parameter` reads, or a number, which has no unit."""
-    return raw if isinstance(raw, str) else _number(raw, unit)
+    return raw if isinstance(raw, str) else number_of(raw, unit)
 
 
 def _referred(raw: str, parameters: Parameters) -> Parameter:
@@ -375,16 +375,15 @@ def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, parameters: Para
     return value
 
 
-def _in(raw: Any) -> Iterator[Any]:
-    """Go through a part of a document and all that stands in it."""
-    left = [raw]
-    while left:
-        entry = left.pop()
-        yield entry
+def _in(raw: Any) -> list[Any]:
+    """Return a part of a document and all that stands in it."""
+    results = [raw]
+    for entry in results:
         if isinstance(entry, dict):
-            left += entry.values()
+            results += entry.values()
         elif isinstance(entry, list):
-            left += entry
+            results += entry
+    return results
 
 
 def references_in(raw: Any) -> set[str]:
