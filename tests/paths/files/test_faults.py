@@ -90,7 +90,7 @@ ROOT_CAUSES = [
     ('["0 deg", "90 deg"]', "[0, 90]", "parameters.theta.range: 0 has no unit"),
     ('["0 deg", "90 deg"]', '["0 deg"]', "two ends, not 1"),
     ('["0 deg", "90 deg"]', '["90 deg", "0 deg"]', "begin with the lower end"),
-    ("[0, inf]", "[0, [1, 2]]", "the maximum of parameter 'n' must be a number, not [1.0, 2.0]"),
+    ("[0, inf]", "[0, [1, 2]]", "the maximum of parameter 'n' must be a number, not [1, 2]"),
     ("range = [", "rnge = [", "did you mean 'range'?"),
     (
         "default = 1.2\nrange = [0, inf]",

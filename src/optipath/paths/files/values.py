@@ -173,8 +173,8 @@ def decode_argument(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) ->
 
 
 def text_or_number(raw: Any, unit: str) -> Any:
-    """Return a text as it is, which a `Parameter` reads, or a number, which has no unit."""
-    return raw if isinstance(raw, str) else number_of(raw, unit)
+    """Return a number, which has no unit; a text, which a `Parameter` reads, as it is."""
+    return raw if isinstance(raw, (str, list)) else number_of(raw, unit)
 
 
 def _referred(raw: str, parameters: Parameters) -> Parameter:
