@@ -175,7 +175,7 @@ def test_a_file_works_wherever_a_name_does_or_is_faulty(run, told, found, refuse
     assert "'json'" in refused("run reserved.toml")  # An option has that name.
     (tmp_path / "x").write_bytes(b"\xff\xfe")
     for line in ("chart --from x", "accuracy --write x"):
-        assert refused(line).endswith("is no text in UTF-8")
+        assert refused(line).endswith("is no text in UTF-8; save it as UTF-8")
 
 
 def test_show_draws_and_chart_measures_draws_and_draws_again(run, told, tmp_path):

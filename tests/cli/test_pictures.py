@@ -140,7 +140,7 @@ def test_all_detectors_are_drawn_where_they_fit_beside_one_another(
     texts = (tmp_path / "a.svg").read_text("utf-8")
     assert "eye-reflected" in texts
     assert "eye-transmitted" in texts
-    several = "the detectors eye-reflected and eye-transmitted, of which this picture has one"
+    several = "the detectors eye-reflected and eye-transmitted; add --detector eye-reflected"
     asked = f"plot two.toml --kind {alone} --x theta --out a.svg"
     assert several in refused(asked)
     told(f"{asked} --detector eye-reflected")

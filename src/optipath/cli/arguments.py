@@ -12,7 +12,7 @@ import numpy as np
 
 from optipath.cli.options import flag
 from optipath.errors import OptipathError, ParameterError, shown, told_as
-from optipath.values.files import bytes_of, message_of, write_file
+from optipath.values.files import message_of, write_file
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength
 
@@ -52,16 +52,6 @@ def array_faults(inputs: Inputs, axes: Collection[str] = ()) -> list[str]:
 OLD_FILE = click.Path(dir_okay=False, exists=True, path_type=Path)
 NEW_FILE = click.Path(dir_okay=False, path_type=Path)
 """The name of a file to be written, which `check_place` looks at."""
-
-
-def read_text(file: Path) -> str:
-    """Return the text of a file."""
-    try:
-        return bytes_of(file).decode("utf-8")
-    except OSError as error:
-        raise OptipathError(f"'{file}' cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise OptipathError(f"'{file}' is no text in UTF-8") from None
 
 
 def check_place(file: Path) -> None:

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.arguments import OLD_FILE, read_text, write
+from optipath.cli.arguments import OLD_FILE, write
 from optipath.cli.console import JSON, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.options import StrictCommand
 from optipath.cli.preset_command import PresetGroup
 from optipath.paths.files.presets import beside, bound_preset, load_preset
+from optipath.values.files import text_of
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
@@ -146,7 +147,7 @@ def _accuracy(samples: int, generations: int | None, file: Path | None) -> None:
     else:
         measure, marks = partial(tables.searched_tables, generations), tables.SEARCHED
     if file is not None:
-        text = read_text(file)
+        text = text_of(file)
         # A file without a place for them is told of at once.
         tables.put_tables(text, [], marks)
         write(file, tables.put_tables(text, measure(), marks).encode())

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from optipath import plots
-from optipath.cli.arguments import NEW_FILE, OLD_FILE, check_place, read_text, write
+from optipath.cli.arguments import NEW_FILE, OLD_FILE, check_place, write
 from optipath.cli.console import reported_progress, say
 from optipath.cli.options import given_options
 from optipath.cli.plot_command import title_of
 from optipath.cli.preset_command import PresetGroup
 from optipath.paths.files.presets import preset_names
-from optipath.values.files import check_form
+from optipath.values.files import check_form, text_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -155,7 +155,7 @@ def _measured(
     if source is not None:
         from optipath.lab.chart_file import read_chart  # noqa: PLC0415 - an extra
 
-        return read_chart(read_text(source), str(source))
+        return read_chart(text_of(source), str(source))
     from optipath.lab import chart as lab  # noqa: PLC0415 - an extra
     from optipath.lab.chart_file import check_race  # noqa: PLC0415 - ditto
 
@@ -166,7 +166,7 @@ def _measured(
     if path is None:
         return lab.interface_chart(effort, tell, keep)
     if peers is not None:
-        check_race(read_text(peers), str(peers))
+        check_race(text_of(peers), str(peers))
     effort = effort._replace(engines=engines) if engines else effort
     click.echo(lab.expected(effort), err=True)
     return lab.path_chart(path, title, effort, tell, keep)

@@ -39,18 +39,9 @@ class PlotRequest:
     path: PathGraph
     axes: dict[str, AxisValues | None]
     quantities: list[str]
+    detector: str | None
     ends: tuple[str, ...]
     published: Mapping[str, tuple[float, ...]]
-
-    @property
-    def end(self) -> str:
-        """The only end at which the light is looked at."""
-        if len(self.ends) > 1:
-            raise ParameterError(
-                f"the path has the detectors {listed(self.ends)}, of which this picture has one; "
-                f"add --detector {self.ends[0]}"
-            )
-        return self.ends[0]
 
 
 def request_of(
@@ -84,11 +75,11 @@ def request_of(
         )
     if faults:
         raise ParameterError(*faults)
-    ends = (*(detectors or dumps),) if detector is None else (detector,)
+    ends = (*detectors,) if detector is None else (detector,)
     is_changed = chosen.values or chosen.axes or reads or chosen.case is None
     published = {} if is_changed else path.cases[chosen.case or ""].published
     title = title_of(chosen, reads=reads, at=detector)
-    return PlotRequest(kind, title, path, axes, quantities, ends, published)
+    return PlotRequest(kind, title, path, axes, quantities, detector, ends, published)
 
 
 _AT_MOST = "no parameter", "one parameter at most", "two parameters at most"
@@ -140,11 +131,11 @@ def _panel(count: int, width: float, height: float) -> Any:
 
 
 def _ellipse(request: PlotRequest) -> Any:
-    lights, count = request.path.trace_all(), len(request.ends)
-    if count == 1:
-        return plots.ellipse({request.end: lights[request.end]})
-    panel = _panel(count, 5.0, 5.8)
-    for name, ax in zip(request.ends, panel.flat, strict=True):
+    lights, ends = request.path.trace_all(), request.ends
+    if len(ends) == 1:
+        return plots.ellipse({ends[0]: lights[ends[0]]})
+    panel = _panel(len(ends), 5.0, 5.8)
+    for name, ax in zip(ends, panel.flat, strict=True):
         plots.ellipse(lights[name], ax, labels=name)
     return panel
 
@@ -155,7 +146,7 @@ def _poincare(request: PlotRequest) -> Any:
     from optipath.plots.poincare_sphere import parameter_trail  # noqa: PLC0415 - an extra
 
     ((name, values),) = request.axes.items()
-    return parameter_trail(request.path, name, request.end, _texts(values))
+    return parameter_trail(request.path, name, request.detector, _texts(values))
 
 
 def _stokes(request: PlotRequest) -> Any:
@@ -184,13 +175,13 @@ def _mueller(request: PlotRequest) -> Any:
 
 
 def _curve(request: PlotRequest) -> Any:
-    path, end, names = request.path, request.end, request.quantities
+    path, detector, names = request.path, request.detector, request.quantities
     (x, values), *others = ((name, _texts(values)) for name, values in request.axes.items())
     if not others:
-        return plots.curve(path, x, names, values=values, detector=end)
+        return plots.curve(path, x, names, values=values, detector=detector)
     ((y, y_values),) = others
-    argument: Any = {"x_values": values, "y_values": y_values}
-    return plots.quantity_map(path, x, y, names[0], detector=end, **argument)
+    given: Any = {"x_values": values, "y_values": y_values, "detector": detector}
+    return plots.quantity_map(path, x, y, names[0], **given)
 
 
 def _texts(values: AxisValues | None) -> Any:

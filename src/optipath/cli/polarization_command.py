@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, say_json, title
-from optipath.cli.preset_command import PresetGroup, of_each
+from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, title
+from optipath.cli.preset_command import PresetGroup
 from optipath.errors import listed
 from optipath.materials.quantities import plain
 from optipath.paths.polarization import polarization as polarization_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from rich.table import Table
 
-    from optipath.cli.preset_command import Chosen
+    from optipath.cli.preset_command import Cases
     from optipath.paths.path_graph import PathGraph
     from optipath.paths.polarization import Polarization
 
@@ -30,36 +30,21 @@ _SMALL = 1e-12
 """Which share of the intensity is no more than rounding."""
 
 
-def _polarization(chosen: Chosen, *, as_json: bool, digits: int) -> None:
+def _polarization(cases: Cases, *, as_json: bool, digits: int) -> None:
     """Show what polarisation does to the intensity, beside the scalar result."""
-    result = _polarizations(chosen.path())
+    results = cases.each(lambda one: _polarizations(one.path()))
     if as_json:
-        say_json({"preset": chosen.preset, **_as_json(result)})
-    else:
-        _print(chosen, result, digits)
-
-
-def _print(chosen: Chosen, results: Mapping[str, Polarization], digits: int) -> None:
-    console = PlainConsole()
-    console.print(title(chosen.title, chosen.opened.description))
-    for name, one in results.items():
-        console.print(_table(name, one, digits))
-        console.print(cell(_verdict(one)))
-
-
-def _polarization_of_several(several: Sequence[Chosen], *, as_json: bool, digits: int) -> None:
-    result = of_each(several, lambda one: _polarizations(one.path()))
-    if as_json:
-        cases = {case: _as_json(one) for case, one in result.items()}
-        say_json({"preset": several[0].preset, "cases": cases})
+        cases.say_json(results, _as_json)
         return
-    for chosen, one in zip(several, result.values(), strict=True):
-        _print(chosen, one, digits)
+    console = PlainConsole()
+    for chosen, result in zip(cases, results.values(), strict=True):
+        console.print(title(chosen.title, chosen.opened.description))
+        for name, one in result.items():
+            console.print(_table(name, one, digits))
+            console.print(cell(_verdict(one)))
 
 
-polarization = PresetGroup(
-    "polarization", _polarization, (JSON, DIGITS), several=_polarization_of_several
-)
+polarization = PresetGroup("polarization", _polarization, (JSON, DIGITS), several=True)
 
 
 def _polarizations(path: PathGraph) -> dict[str, Polarization]:

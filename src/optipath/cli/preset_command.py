@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from optipath.cli.arguments import RANGES, axis_argument
-from optipath.cli.console import JSON, say
+from optipath.cli.console import JSON, say, say_json
 from optipath.cli.options import StrictCommand, WholeHelp, flag
 from optipath.composer.composer import CHOICES
 from optipath.composer.path_values import Values
@@ -82,8 +82,8 @@ class PresetGroup(WholeHelp):
         name: str,
         action: Callable[..., None],
         options: Sequence[click.Option] = COMPOSING,
-        several: Callable[..., None] | None = None,
         *,
+        several: bool = False,
         ranges: bool = False,
         faults: Callable[..., Sequence[str]] = lambda **_: (),
         **keywords: Any,
@@ -114,7 +114,7 @@ class PresetGroup(WholeHelp):
 
         def callback(*, cases: tuple[str, ...], **texts: Any) -> None:
             options = {name: texts.pop(name) for name in names}
-            if self.several is None:
+            if not self.several:
                 one_case(command, path, cases)
             chosen = chosen_by(cmd_name, path, cases, texts, self.faults(**options))
             if not self.ranges and chosen[0].axes:
@@ -126,10 +126,7 @@ class PresetGroup(WholeHelp):
                         for name in chosen[0].axes
                     ]
                 )
-            if self.several is not None and _is_several(cases):
-                self.several(chosen, **options)
-            else:
-                self.action(chosen[0], **options)
+            self.action(chosen if self.several else chosen[0], **options)
 
         several = "; may be given several times, or all" if self.several and path.cases else ""
         known = printable(", ".join(path.cases)) or "none in this preset"
@@ -222,14 +219,50 @@ class Chosen:
         return bound if reads is None else bound.reading(reads)
 
 
+class Cases(list[Chosen]):
+    """What a command line is about, for each case that is asked for."""
+
+    together = False
+    """Whether several cases are asked for, or all there are."""
+
+    def each(self, action: Callable[[Chosen], T]) -> dict[str, T]:
+        """Return what an action makes of each case, by its name."""
+        results: dict[str, T] = {}
+        having: dict[Fault, list[str]] = {}
+        for chosen in self:
+            case = chosen.case or ""
+            try:
+                results[case] = action(chosen)
+            except OptipathError as error:
+                for fault in error.faults:
+                    having.setdefault(fault, []).append(case)
+        if having:
+            raise ParameterError(
+                *[
+                    fault.under(
+                        "" if len(of) == len(self) else f"case{'s' * (len(of) > 1)} {listed(of)}"
+                    )
+                    for fault, of in having.items()
+                ]
+            )
+        return results
+
+    def say_json(self, results: Mapping[str, T], as_json: Callable[[T], dict[str, Any]]) -> None:
+        """Print what was found of the case, or of all of them, as one JSON object."""
+        cases = {case: as_json(one) for case, one in results.items()}
+        found = {"cases": cases} if self.together else next(iter(cases.values()))
+        say_json({"preset": self[0].preset, **found})
+
+
 def chosen_by(
     preset: str,
     path: PathGraph,
     cases: Sequence[str],
     texts: Mapping[str, str | None],
     of_options: Sequence[str] = (),
-) -> list[Chosen]:
+) -> Cases:
     """Return what the options give, for each case that is asked for."""
+    together = _is_several(cases)
     if ALL in cases:
         if not path.cases:
             raise ParameterError(f"preset '{preset}' has no cases; leave --case out")
@@ -247,38 +280,17 @@ def chosen_by(
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
     axes = {name: value for name, value in sound.items() if isinstance(value, AxisValues)}
     single = {name: value for name, value in sound.items() if name not in axes}
-    results = [Chosen(preset, path, case, single, axes) for case in dict.fromkeys(cases) or [None]]
+    several = dict.fromkeys(cases) or [None]
+    results = Cases(Chosen(preset, path, case, single, axes) for case in several)
+    results.together = together
     if faults or axes or len(results) > 1:
         with collecting(faults):
-            of_each(results, Chosen.path)
+            results.each(Chosen.path)
     if faults:
         for name in filter(path.parameters.__contains__, axes):
             with collecting(faults):
                 path.bind(**{name: axes[name].given})
         raise ParameterError(*dict.fromkeys(faults))
-    return results
-
-
-def of_each(several: Sequence[Chosen], action: Callable[[Chosen], T]) -> dict[str, T]:
-    """Return what an action makes of each case, by its name."""
-    results: dict[str, T] = {}
-    having: dict[Fault, list[str]] = {}
-    for chosen in several:
-        case = chosen.case or ""
-        try:
-            results[case] = action(chosen)
-        except OptipathError as error:
-            for fault in error.faults:
-                having.setdefault(fault, []).append(case)
-    if having:
-        raise ParameterError(
-            *[
-                fault.under(
-                    "" if len(of) == len(several) else f"case{'s' * (len(of) > 1)} {listed(of)}"
-                )
-                for fault, of in having.items()
-            ]
-        )
     return results
 
 

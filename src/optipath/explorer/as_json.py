@@ -18,10 +18,11 @@ from optipath.plots.light_texts import ellipse_points
 from optipath.values.units import dimension_of, in_unit, units_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from optipath.explorer.paths import ExploredPath
     from optipath.light.light import Light
+    from optipath.paths.energy import LightOnLink
     from optipath.paths.path_graph import PathGraph
     from optipath.values.cases import Case
     from optipath.values.parameters import Parameter
@@ -178,20 +179,16 @@ def _ellipse(light: Light) -> dict[str, Any]:
     }
 
 
-def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any]:
+def energy_as_json(
+    path: PathGraph, lights: Sequence[LightOnLink] = (), /, **values: Any
+) -> dict[str, Any]:
     """Return the power on links, and what elements, outlets and ends take of it.
 
     >>> import optipath as op
-    >>> energy_as_flows(op.load_preset("malus"), {})["text"]
+    >>> energy_as_json(op.load_preset("malus"))["text"]
     'Sources give 1; polarizer takes 0.5, analyzer takes 0.125 and eye gets 0.375.'
     """
-    result = energy_along(path, **values)
-    links = [
-        {"start": each.start, "end": each.end, "name": each.name, "tap": each.tap}
-        | _power(each.power)
-        for each in result.links
-        if each.end
-    ]
+    result = energy_along(path, lights, **values)
     whole = sum(float(power) for power in result.given.values())
     messages = [
         *(f"{node} takes {_text(power)}" for node, power in result.taken.items() if power),
@@ -199,7 +196,12 @@ def energy_as_flows(path: PathGraph, values: Mapping[str, Any]) -> dict[str, Any
         *(f"{node} gets {_text(power)}" for node, power in result.ended.items()),
     ]
     return {
-        "links": links,
+        "links": [
+            {"start": each.start, "end": each.end, "name": each.name, "tap": each.tap}
+            | _power(each.power)
+            for each in result.links
+            if each.end
+        ],
         "given": [{"node": node} | _power(power) for node, power in result.given.items()],
         "taken": [{"node": node} | _power(power) for node, power in result.taken.items()],
         "leaves": [{"name": name} | _power(power) for name, power in result.left.items()],

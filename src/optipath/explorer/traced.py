@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from optipath.errors import Fault, OptipathError, ParameterError, collecting, sh
 from optipath.explorer.as_json import (
     PRINTED,
     end_as_json,
-    energy_as_flows,
+    energy_as_json,
     link_as_json,
     quantity_as_json,
 )
@@ -20,7 +19,7 @@ from optipath.light.quantities import QUANTITIES
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import plain
 from optipath.paths.binding import from_materials
-from optipath.paths.energy import KEEPING, lights_along
+from optipath.paths.energy import lights_along
 from optipath.plots.scene.layout import scene_of
 from optipath.sweeps.datasets import heading
 from optipath.sweeps.grid import SweepGrid, sweep_axis
@@ -28,12 +27,10 @@ from optipath.values.text import read_axis_text
 from optipath.values.units import in_unit, unit_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
-    from optipath.composer.composer import Composer
     from optipath.explorer.state import ReadState, RequestedCurve
     from optipath.light.light import Light
-    from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
     from optipath.sweeps.grid import SweepAxis
     from optipath.values.parameters import Parameter
@@ -51,18 +48,20 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
             for name in explored.detectors
         },
     }
-    # It stands for the path wherever pictures ask for the light on its links.
-    path = cast("PathGraph", TracedOnce(explored.path, state.values))
-    along = lights_along(path, **state.values)
+    path, along = explored.path, lights_along(explored.path, **state.values)
     results["along"] = [link_as_json(e.name, e.start, e.end, e.light) for e in along]
     plan = explored.plan
     results |= {"model": plan.model, "method": plan.method}
     results["engine"] = " and ".join(plan.answers.ran_by)
     results |= _curve(state)
-    want = request.want
-    results["scene"] = _scene(path, state, results["notes"]) if "scene" in want else None
-    results["energy"] = energy_as_flows(path, state.values) if "energy" in want else None
-    results["explanation"] = explored.explanation if "explanation" in want else None
+    results |= {"scene": None, "energy": None, "explanation": None}
+    if "scene" in request.want:
+        with collecting(results["notes"]):
+            results["scene"] = scene_of(path, "a scene", along, **state.values).as_json()
+    if "energy" in request.want:
+        results["energy"] = energy_as_json(path, along)
+    if "explanation" in request.want:
+        results["explanation"] = explored.explanation
     return results
 
 
@@ -75,13 +74,6 @@ def _curve(state: ReadState) -> dict[str, Any]:
     except OptipathError as error:
         return {"curve": None, "curve_faults": faults_as_json(error)}
     return {"curve": curve, "curve_faults": []}
-
-
-def _scene(path: PathGraph, state: ReadState, notes: list[str]) -> dict[str, Any] | None:
-    """Return the path in space; a note where it cannot be laid out."""
-    with collecting(notes):
-        return scene_of(path, **state.values).as_json()
-    return None
 
 
 def traced(state: ReadState) -> dict[str, Light]:
@@ -156,29 +148,6 @@ def _materials(state: ReadState) -> dict[str, dict[str, Any]]:
             text = "" if number is None else PRINTED.text(number)
             results[k] = {**_NO_VALUE, "text": text, "number": number, "by": name}
     return results
-
-
-class TracedOnce:
-    """A path in one state: whatever is asked of it is asked of the path, but the light is kept."""
-
-    def __init__(self, path: PathGraph, values: Mapping[str, Any]) -> None:
-        self._path = path
-        self._values = values
-
-    @cached_property
-    def _lights(self) -> dict[str, Light]:
-        return self._path.plan_by(KEEPING).run_all(**self._values)
-
-    def plan_by(self, _: Composer) -> TracedOnce:
-        """Return the plan that keeps all light, which is all that pictures ask for."""
-        return self
-
-    def run_all(self, **_: Any) -> dict[str, Light]:
-        """Return the light on every link."""
-        return self._lights
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._path, name)
 
 
 _NAMES = {quantity.variable: quantity for quantity in QUANTITIES}

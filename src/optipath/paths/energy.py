@@ -8,10 +8,9 @@ import numpy as np
 
 from optipath.composer.composer import Composer
 from optipath.composer.wiring import Wiring, cycles, link_text, reached
-from optipath.materials.quantities import plain
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable, Mapping, Sequence
 
     import numpy.typing as npt
 
@@ -58,21 +57,13 @@ class EnergyAlong(NamedTuple):
     ended: Mapping[str, npt.NDArray[np.float64]]
     notes: tuple[str, ...]
 
-    def as_json(self) -> dict[str, Any]:
-        """Return the same for JSON; a power that is not a number is None."""
-        powers = {
-            which: {name: plain(power) for name, power in getattr(self, which).items()}
-            for which in ("given", "taken", "left", "ended")
-        }
-        links = [link._asdict() | {"power": plain(link.power)} for link in self.links]
-        links = [{key: value for key, value in link.items() if key != "light"} for link in links]
-        return {"links": links, **powers, "notes": [*self.notes]}
 
-
-def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
-    """Return where the power of the light of a path comes from and goes."""
+def energy_along(
+    path: PathGraph, lit: Sequence[LightOnLink] = (), /, **parameters: Any
+) -> EnergyAlong:
+    """Return where the power of the light of a path comes from and goes, of its lights if known."""
     wiring = Wiring(path.graph, keep="all")
-    lit = [*lights_along(path, **parameters)]
+    lit = lit or lights_along(path, **parameters)
     powers = np.broadcast_arrays(*[_power(each.light) for each in lit])
     spent = reached(wiring.untapped, wiring.starts)
     round_and_round = set().union(*cycles(wiring.untapped))

@@ -11,18 +11,17 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
 from optipath.lab.bench import duration
 from optipath.lab.chart_file import CRITICAL, checked_chart, peer_times, read_chart
 from optipath.plots.colors import DASHES, FAINT, INK, LINES
 from optipath.plots.labels import Label, place_labels
 from optipath.plots.text import broken, draw_key
-from optipath.values.files import bytes_of, input_file
+from optipath.values.files import input_file, text_of
 
 if TYPE_CHECKING:
     import os
     from collections.abc import Iterable, Sequence
-    from pathlib import Path
 
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
@@ -72,7 +71,7 @@ def chart(
         result = checked_chart(measured, "what is given")
     else:
         file = input_file(measured, OptipathError)
-        result = read_chart(_text(file), str(file))
+        result = read_chart(text_of(file), str(file))
     if result.get("drawn") == CRITICAL:
         if peers is not None:
             raise OptipathError("peers stand beside speed and accuracy alone; leave them out")
@@ -80,15 +79,7 @@ def chart(
     if peers is None:
         return _draw_speed_and_accuracy(result)
     file = input_file(peers, OptipathError)
-    return _draw_speed_and_accuracy(result, peer_times(_text(file), str(file), result))
-
-
-def _text(file: Path) -> str:
-    try:
-        return bytes_of(file).decode("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", "it is no text in UTF-8")
-        raise OptipathError(f"{shown(str(file))} cannot be read: {reason}") from None
+    return _draw_speed_and_accuracy(result, peer_times(text_of(file), str(file), result))
 
 
 _KINDS = {

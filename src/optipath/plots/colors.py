@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.colors import FuncNorm, Normalize
 
 if TYPE_CHECKING:
     from matplotlib.colorbar import Colorbar
-    from matplotlib.colors import Normalize
 
     from optipath.values.precision import Numbers
 
@@ -57,23 +57,23 @@ class ColourScale(NamedTuple):
     @classmethod
     def signed(cls, largest: float) -> ColourScale:
         """Return that of numbers with a sign, white at 0."""
-        return cls("RdBu_r", _even(-largest, largest))
+        return cls("RdBu_r", Normalize(-largest, largest))
 
     @classmethod
     def share(cls, largest: float = 1.0) -> ColourScale:
         """Return that of shares, from 0 on."""
-        return cls("viridis", _even(0.0, largest))
+        return cls("viridis", Normalize(0.0, largest))
 
     @classmethod
     def ordered(cls, least: float, largest: float) -> ColourScale:
         """Return that of numbers in an order; of one number, with some room about it."""
         room = 0.5 * max(abs(least), 1.0) if least == largest else 0.0
-        return cls("viridis", _even(least - room, largest + room))
+        return cls("viridis", Normalize(least - room, largest + room))
 
     @classmethod
     def cyclic(cls, end: float = 90.0) -> ColourScale:
         """Return that of angles in degrees, of which -end and end are one."""
-        return cls("twilight", _even(-end, end), (-end, -end / 2, 0.0, end / 2, end))
+        return cls("twilight", Normalize(-end, end), (-end, -end / 2, 0.0, end / 2, end))
 
     def bar(self, image: Any, axes: Any, label: str, **options: Any) -> Colorbar:
         """Draw the colour bar of an image."""
@@ -84,15 +84,7 @@ class ColourScale(NamedTuple):
         return bar
 
 
-def _even(least: float, largest: float) -> Normalize:
-    from matplotlib.colors import Normalize  # noqa: PLC0415 - the explorer needs names alone
-
-    return Normalize(least, largest)
-
-
 def _toned(least: float, largest: float) -> Normalize:
-    from matplotlib.colors import FuncNorm  # noqa: PLC0415 - the explorer needs names alone
-
     def tone(light: Numbers, power: float = _TONE) -> Numbers:
         return np.sign(light) * np.abs(light) ** power
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -73,7 +74,7 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
         )
     if not all(np.isfinite(link.power) for link in result.links):
         raise OptipathError("the light is not a number on some links; give values that there are")
-    rows, links = energy_rows(result)
+    rows, links = _rows_and_links(result)
     ax = own_axes(ax, (_WIDE, _AROUND + _ROW * (len(rows) + len(result.notes))))
     ax.set_axis_off()
     ax.set_ylim(0.55 - len(rows) - len(result.notes), 0.55)
@@ -82,14 +83,14 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     return ax
 
 
-def _draw(ax: Axes, rows: list[EnergyRow], links: list[EnergyLink]) -> float:
+def _draw(ax: Axes, rows: list[_Row], links: list[_Link]) -> float:
     """Draw bars, ribbons and what is taken over the largest power; return how wide all is."""
     largest = max([link.power for link in links], default=0.0) or 1.0
     rows = [row._replace(power=row.power / largest) for row in rows]
-    links = [link._replace(power=link.power / largest) for link in links]
-    places = EnergyPlaces(rows, links)
+    links = [link._replace(power=0.0 if link.tap else link.power / largest) for link in links]
+    places = _Places(rows, links)
     for link, outline in zip(links, places.outlines, strict=True):
-        if link.tap or not link.power:
+        if not link.power:
             half = outline[: len(outline) // 2]
             ax.plot(*half.T, color=FAINT, linestyle=":", linewidth=1.1, gid=link.start)
             continue
@@ -99,18 +100,18 @@ def _draw(ax: Axes, rows: list[EnergyRow], links: list[EnergyLink]) -> float:
         y, left = places.level[row.name], places.left[row.lane]
         if row.told == "takes":
             # A spike on the right of what goes on.
-            leaving = [link for link in links if link.start == row.name and not link.tap]
+            leaving = [link for link in links if link.start == row.name]
             begin = left + sum(link.power for link in leaving if link.lane <= row.lane)
-            end, mid = begin + row.power, y - BAR - _SPIKE / 2
-            tip = (begin + end) / 2, y - BAR - _SPIKE
-            spike = [(begin, y - BAR), (begin, mid), tip, (end, mid), (end, y - BAR)]
+            end, mid = begin + row.power, y - _BAR - _SPIKE / 2
+            tip = (begin + end) / 2, y - _BAR - _SPIKE
+            spike = [(begin, y - _BAR), (begin, mid), tip, (end, mid), (end, y - _BAR)]
             ax.add_patch(Polygon(spike, closed=True, color=_TAKEN, linewidth=0.6, alpha=0.8))
-        size = max(places.bars[row.name], 0.02), 2 * BAR
-        ax.add_patch(Rectangle((left, y - BAR), *size, color=INK, linewidth=0.6))
+        size = max(places.bars[row.name], 0.02), 2 * _BAR
+        ax.add_patch(Rectangle((left, y - _BAR), *size, color=INK, linewidth=0.6))
     return places.width
 
 
-def _write(ax: Axes, rows: Sequence[EnergyRow], result: EnergyAlong, width: float) -> None:
+def _write(ax: Axes, rows: Sequence[_Row], result: EnergyAlong, width: float) -> None:
     """Write names on the left and what becomes of light on the right, as large as they fit."""
     names, messages = [row.name for row in rows], [_sentence(row, result) for row in rows]
     # In inches, of letters of one point; each column begins half a letter beside the ribbons.
@@ -138,17 +139,13 @@ def _write(ax: Axes, rows: Sequence[EnergyRow], result: EnergyAlong, width: floa
         ax.text(edges[0], -float(at), note, ha="left", **style)
 
 
-def _sentence(row: EnergyRow, result: EnergyAlong) -> str:
+def _sentence(row: _Row, result: EnergyAlong) -> str:
     total = float(sum(result.given.values()))
-    if not row.told:
-        return ""
-    written = f"{row.told} {row.power:.3g}"
-    if row.told == "gives" or not total:
-        return written
-    return f"{written} ({100.0 * row.power / total:.3g} %)"
+    share = f" ({100.0 * row.power / total:.3g} %)" if total and row.told != "gives" else ""
+    return f"{row.told} {row.power:.3g}{share}" if row.told else ""
 
 
-BAR = 0.05
+_BAR = 0.05
 """Half the height of a bar, of the distance of rows."""
 
 _SPIKE = 0.34
@@ -158,7 +155,7 @@ _GAP, _LEAST = 0.2, 0.12
 """Between lanes, and how wide a lane is at least, of the largest power."""
 
 
-class EnergyLink(NamedTuple):
+class _Link(NamedTuple):
     """A link as it is drawn."""
 
     start: str
@@ -169,7 +166,7 @@ class EnergyLink(NamedTuple):
     tap: bool
 
 
-class EnergyRow(NamedTuple):
+class _Row(NamedTuple):
     """An element, or a port by which light leaves, in a row of its own."""
 
     name: str
@@ -178,20 +175,25 @@ class EnergyRow(NamedTuple):
     power: float
 
 
-class EnergyPlaces:
-    """Where everything is: levels of rows, left edges of lanes, bars, and outlines of links."""
+class _Places:
+    """Where everything is: levels of rows, left edges of lanes, bars, and outlines of links.
 
-    def __init__(self, rows: list[EnergyRow], links: list[EnergyLink]) -> None:
+    Powers are over the largest; taps have none.
+    """
+
+    def __init__(self, rows: list[_Row], links: list[_Link]) -> None:
         self.level = {row.name: -float(at) for at, row in enumerate(rows)}
-        self.bars: dict[str, float] = {}
-        widths: dict[int, float] = {}
-        for row in rows:
-            arriving = sum(link.power for link in links if link.end == row.name and not link.tap)
-            leaving = sum(link.power for link in links if link.start == row.name and not link.tap)
-            self.bars[row.name] = max(arriving, leaving)
-            widths[row.lane] = max(widths.get(row.lane, 0.0), self.bars[row.name])
-        for link in links:
-            widths[link.lane] = max(widths.get(link.lane, 0.0), 0.0 if link.tap else link.power)
+        self.bars = {
+            row.name: max(
+                sum(link.power for link in links if link.end == row.name),
+                sum(link.power for link in links if link.start == row.name),
+            )
+            for row in rows
+        }
+        widths: dict[int, float] = defaultdict(float)
+        needed = [(row.lane, self.bars[row.name]) for row in rows]
+        for lane, width in (*needed, *((link.lane, link.power) for link in links)):
+            widths[lane] = max(widths[lane], width)
         self.left, edge = {}, 0.0
         for lane in sorted(widths):
             self.left[lane] = edge
@@ -200,49 +202,43 @@ class EnergyPlaces:
         by_name = {row.name: row for row in rows}
         self.outlines = [self._outline(link, links, by_name) for link in links]
 
-    def _outline(
-        self, link: EnergyLink, links: list[EnergyLink], rows: dict[str, EnergyRow]
-    ) -> Numbers:
+    def _outline(self, link: _Link, links: list[_Link], rows: dict[str, _Row]) -> Numbers:
         """Return the outline of a link, or its middle, there and back, where it has no width."""
-        width = 0.0 if link.tap else link.power
-        row, end_row = rows[link.start], rows[link.end]
+        width, row, end_row = link.power, rows[link.start], rows[link.end]
         out = self.left[row.lane] + _before(link, [e for e in links if e.start == link.start])
         if row.told == "takes" and link.lane > row.lane:
             out += row.power
         into = self.left[end_row.lane] + _before(link, [e for e in links if e.end == link.end])
-        begin, end = (out, self.level[link.start] - BAR), (into, self.level[link.end] + BAR)
+        begin, end = (out, self.level[link.start] - _BAR), (into, self.level[link.end] + _BAR)
         lane = self.left[link.lane] + width / 2
         if link.back:
             return _turned_back(begin, lane, end, width)
         stations = [begin, end]
         if begin[1] - end[1] > 1.0:
-            first, last = begin[1] - 1.0 + 2 * BAR, end[1] + 1.0 - 2 * BAR
+            first, last = begin[1] - 1.0 + 2 * _BAR, end[1] + 1.0 - 2 * _BAR
             both = [(lane, first), (lane, last)]
             stations[1:1] = both if first >= last else [(lane, (first + last) / 2)]
         return _ribbon(stations, width)
 
 
-def _before(link: EnergyLink, others: list[EnergyLink]) -> float:
+def _before(link: _Link, others: list[_Link]) -> float:
     """Return how far from the left the middle of a link is among others at one bar."""
-    flows = [one for one in others if not one.tap]
-    if link.tap:
-        return sum(one.power for one in flows)
-    return sum(one.power for one in flows if one.lane < link.lane) + link.power / 2
+    left = [one.power for one in others if link.tap or one.lane < link.lane]
+    return sum(left) + link.power / 2
 
 
-def energy_rows(result: EnergyAlong) -> tuple[list[EnergyRow], list[EnergyLink]]:
+def _rows_and_links(result: EnergyAlong) -> tuple[list[_Row], list[_Link]]:
     """Return the rows of a path in the order of travel, and the lanes of its links.
 
     Light keeps the lane of its element; what splits off takes the next free lane, and what returns,
     a lane to the right of all others.
     """
     names = _in_order(result.links)
-    place = {name: row for row, name in enumerate(names)}
-    back = [place[_end(link)] <= place[link.start] for link in result.links]
+    back = [names.index(_end(link)) <= names.index(link.start) for link in result.links]
     lanes, ways = _lanes(result.links, names, back)
-    rows = [EnergyRow(name, lanes[name], *_row_texts(name, result)) for name in names]
+    rows = [_Row(name, lanes[name], *_row_texts(name, result)) for name in names]
     links = [
-        EnergyLink(link.start, _end(link), float(link.power), ways[at], back[at], link.tap)
+        _Link(link.start, _end(link), float(link.power), ways[at], back[at], link.tap)
         for at, link in enumerate(result.links)
     ]
     return rows, links

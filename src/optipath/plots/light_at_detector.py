@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, listed, shown, unknown
+from optipath.errors import (
+    Cure,
+    Fault,
+    OptipathError,
+    ParameterError,
+    listed,
+    shown,
+    unknown,
+)
 from optipath.light.quantities import QUANTITIES, LightQuantity
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.usual_range import usual_range
@@ -236,10 +244,9 @@ def end_of(path: PathGraph, detector: Any) -> str:
         return str(detector)
     detectors = [*path.compose().program.detectors]
     if len(detectors) > 1:
-        raise ParameterError(
-            f"the path has the detectors {listed(detectors)}; say which, by "
-            f"detector='{detectors[0]}'"
-        )
+        first = detectors[0]
+        cure = Cure(f"say which, by detector='{first}'", command=f"add --detector {first}")
+        raise ParameterError(Fault(f"the path has the detectors {listed(detectors)}", cure))
     return detectors[0]
 
 

@@ -9,15 +9,14 @@ import numpy as np
 
 from optipath.errors import OptipathError, listed, shown
 from optipath.light.light import Light
-from optipath.plots.colors import LINES
 from optipath.values.jax_values import check_known
 
 if TYPE_CHECKING:
     from optipath.values.precision import Numbers
 
 
-MOST = len(LINES)
-"""How many lights are told apart beside one another."""
+MOST = 6
+"""How many lights are told apart beside one another, of which each has a colour of `LINES`."""
 
 
 def known_light(light: Any) -> Light:

@@ -21,7 +21,7 @@ from optipath.paths.path_graph import PathGraph
 from optipath.plots.axes import own_lines
 from optipath.plots.colors import FAINT, INK, LINES, ColourScale
 from optipath.plots.labels import Label, place_labels
-from optipath.plots.light_at_detector import START, axis_of, fine_steps, varied
+from optipath.plots.light_at_detector import START, axis_of, end_of, fine_steps, varied
 from optipath.plots.light_texts import figures_text, known_light, no_ellipse, state_text
 from optipath.plots.text import fitting, head, key_below
 from optipath.values.arrays import array_of
@@ -124,13 +124,13 @@ def poincare(
     return ax
 
 
-def parameter_trail(path: PathGraph, name: str, detector: str, values: Any = None) -> Axes3D:
+def parameter_trail(path: PathGraph, name: str, detector: Any = None, values: Any = None) -> Axes3D:
     """Draw the light at a detector on the Poincaré sphere, coloured by a parameter."""
-    (parameter,) = varied(path, [name], {})
+    (parameter,), end = varied(path, [name], {}), end_of(path, detector)
     along, argument = axis_of(path, parameter, values, START)
 
     def light_at(values: Numbers) -> Light:
-        return path.trace_all(**{name: values})[detector]
+        return path.trace_all(**{name: values})[end]
 
     def points_at(values: Numbers) -> Numbers:
         return sphere_point(light_at(values))

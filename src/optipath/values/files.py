@@ -51,6 +51,16 @@ def bytes_of(file: Path, most: int = LARGEST) -> bytes:
     return result
 
 
+def text_of(file: Path) -> str:
+    """Return the text of a file, or of a pipe."""
+    try:
+        return bytes_of(file).decode("utf-8")
+    except OSError as error:
+        raise OptipathError(f"'{file}' cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise OptipathError(f"'{file}' is no text in UTF-8; save it as UTF-8") from None
+
+
 @contextmanager
 def message_of(
     file: Path,

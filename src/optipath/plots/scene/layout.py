@@ -16,6 +16,7 @@ from optipath.elements.vertices import ChainVertex
 from optipath.errors import OptipathError, PathError, shown
 from optipath.materials.quantities import plain
 from optipath.paths.energy import lights_along
+from optipath.paths.path_graph import PathGraph
 from optipath.plots.light_texts import ellipse_points
 from optipath.plots.scene.placing import (
     DrawnLink,
@@ -30,13 +31,12 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from optipath.composer.wiring import Link
     from optipath.elements.element import Element
     from optipath.light.light import Light
     from optipath.paths.energy import LightOnLink
-    from optipath.paths.path_graph import PathGraph
     from optipath.values.precision import Numbers
 
 
@@ -171,14 +171,13 @@ class ShownAngle(NamedTuple):
         return f"{self.name} = {value}" if self.name else value
 
 
-def known_path(
-    path: PathGraph, what: str, values: dict[str, Any]
-) -> tuple[Wiring, list[LightOnLink]]:
+def _known_path(
+    path: PathGraph, what: str, lights: Sequence[LightOnLink], values: dict[str, Any]
+) -> tuple[Wiring, Sequence[LightOnLink]]:
     """Return the wiring of a path with all its values, one number each, and its lights."""
-    # What keeps the light of a path stands for it as well.
-    if not hasattr(path, "graph"):
+    if not isinstance(path, PathGraph):
         raise OptipathError(f"{what} draws a path, not {shown(path)}; give a PathGraph")
-    lights = lights_along(path, **values)
+    lights = lights or lights_along(path, **values)
     parameters = path.parameters.items()
     defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
     graph = path.bind(**{**defaults, **values}).graph
@@ -239,13 +238,15 @@ _FRAMES_AT = 0.2
 """How far from its node the frame of a port is drawn."""
 
 
-def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
-    """Return a path laid out in space.
+def scene_of(
+    path: PathGraph, what: str = "a scene", lights: Sequence[LightOnLink] = (), /, **values: Any
+) -> Scene:
+    """Return a path laid out in space, with its lights if they are known.
 
     World frames and chain points are kept. All else is laid out by following the light from its
     source, in the frames of docs/conventions.md: x of a surface is along k_out cross k_in.
     """
-    wiring, lights = known_path(path, what, values)
+    wiring, lights = _known_path(path, what, lights, values)
     placing = Placing(wiring)
     rays = tuple(_ray(placing, each) for each in lights)
     lengths = "lengths are chosen: each link is drawn 1 long"
@@ -432,11 +433,10 @@ def _turn(
 
 def angles_in_chain(element: Any) -> tuple[Any, Any]:
     """Return the incidence at a surface, and the turn of its plane from the one before, in rad."""
-    if not isinstance(element, ChainVertex):
-        return None, None
-    chain, place = element.vertices, int(element.place)
+    chain = element.vertices if isinstance(element, ChainVertex) else None
     if not isinstance(chain, VerticesByAngles):
         return None, None
+    place = int(element.place)
     way = -1 if chain.backwards else 1
     turn = chain.turns[::way][place - 2] if place > 1 else None
     return chain.incidences[::way][place - 1], turn
