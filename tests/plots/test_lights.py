@@ -398,9 +398,12 @@ def test_trails_have_hollow_points_behind_gaps_a_labelled_colour_bar_and_a_secon
         ),
         (lambda: poincare(TRAIL, Figure().add_subplot()), r'add_subplot\(projection="3d"\)'),
         (lambda: poincare(TRAIL, "no axes"), r'add_subplot\(projection="3d"\)'),
-        (lambda: poincare_path(MALUS, angle=[0.0, 0.5]), r"light of shape \(2,\).*give one"),
-        (lambda: poincare_path("malus"), "a trail is of a path, not of .*give a PathGraph"),
-        (lambda: poincare_path(op.Polarizer(0.0)), "a trail is of a path, not of .*give a PathG"),
+        (
+            lambda: poincare_path(MALUS, angle=[0.0, 0.5]),
+            r"angle has the shape \(2,\); give single",
+        ),
+        (lambda: poincare_path("malus"), "draws a path, not .*give a PathGraph"),
+        (lambda: poincare_path(op.Polarizer(0.0)), "draws a path, not .*give a PathG"),
     ],
 )
 def test_what_is_no_trail_is_told(draw, told):

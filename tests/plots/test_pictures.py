@@ -240,9 +240,11 @@ def test_rounding_gains_darkness_several_sources_and_taps_are_told():
     assert faults_of(ax.figure) == []
     found = message_of(energy(op.load_preset("sky-and-window")))
     assert (found["heaven"], found["lamp"]) == ("gives 10", "gives 2")
-    with pytest.raises(op.OptipathError, match=r"a batch of shape \(2,\), and a picture is of one"):
+    with pytest.raises(
+        op.OptipathError, match=r"energy draws one path, but .*angle has the shape \(2,\)"
+    ):
         energy(MALUS, angle=[0.1, 0.2])
-    with pytest.raises(op.OptipathError, match="energy is that of a path"):
+    with pytest.raises(op.OptipathError, match="energy draws a path"):
         energy(op.Polarizer())
     # Taps are dotted and only read.
     found = message_of(energy(op.load_preset("ellipsometer-pcsa"), n=1.5, k=0.0, theta=0.0))

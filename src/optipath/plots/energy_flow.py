@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
 
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
 from optipath.paths.energy import energy_along
-from optipath.paths.path_graph import PathGraph
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
+from optipath.plots.light_texts import one_path
 from optipath.plots.text import inches_of, width_of
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from optipath.paths.energy import EnergyAlong, LightOnLink
+    from optipath.paths.path_graph import PathGraph
     from optipath.values.precision import Numbers
 
 
@@ -64,14 +65,7 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     >>> [text.get_text() for text in ax.texts][:4]
     ['lamp', 'gives 1', 'polarizer', 'takes 0.5 (50 %)']
     """
-    if not isinstance(path, PathGraph):
-        raise OptipathError(f"energy is that of a path, not of {shown(path)}; give a PathGraph")
-    result = energy_along(path, **values)
-    if any(link.power.ndim for link in result.links):
-        shape = result.links[0].power.shape
-        raise OptipathError(
-            f"the light is a batch of shape {shape}, and a picture is of one; give one value each"
-        )
+    result = energy_along(*one_path(path, "energy", values))
     if not all(np.isfinite(link.power) for link in result.links):
         raise OptipathError("the light is not a number on some links; give values that there are")
     rows, links = _rows_and_links(result)

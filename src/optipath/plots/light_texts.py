@@ -7,11 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, listed, shown
+from optipath.composer.path_values import Values
+from optipath.errors import OptipathError, PathError, listed, shown
 from optipath.light.light import Light
+from optipath.paths.energy import lights_along
+from optipath.paths.path_graph import PathGraph
 from optipath.values.jax_values import check_known
 
 if TYPE_CHECKING:
+    from optipath.paths.energy import LightOnLink
     from optipath.values.precision import Numbers
 
 
@@ -28,6 +32,25 @@ def known_light(light: Any) -> Light:
         )
     check_known("a picture of light", light.stokes)
     return light
+
+
+def one_path(
+    path: Any, what: str, values: Mapping[str, Any], lights: Sequence[LightOnLink] = ()
+) -> tuple[PathGraph, Sequence[LightOnLink]]:
+    """Return a path with all its values, one each, and the light on its links, if not known."""
+    if not isinstance(path, PathGraph):
+        raise OptipathError(f"{what} draws a path, not {shown(path)}; give a PathGraph")
+    lights = lights or lights_along(path, **values)
+    parameters = path.parameters.items()
+    defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
+    path = path.bind(**{**defaults, **values})
+    shapes = {each.name: known_light(each.light).shape for each in lights}
+    for name, shape in (Values(path.graph).known_shapes | shapes).items():
+        if shape:
+            raise PathError(
+                f"{what} draws one path, but {name} has the shape {shape}; give single values"
+            )
+    return path, lights
 
 
 def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:

@@ -16,13 +16,11 @@ from mpl_toolkits.mplot3d import Axes3D, proj3d
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 from optipath.errors import OptipathError, shown
-from optipath.paths.energy import lights_along
-from optipath.paths.path_graph import PathGraph
 from optipath.plots.axes import own_lines
 from optipath.plots.colors import FAINT, INK, LINES, ColourScale
 from optipath.plots.labels import Label, place_labels
 from optipath.plots.light_at_detector import START, axis_of, end_of, fine_steps, varied
-from optipath.plots.light_texts import figures_text, known_light, no_ellipse, state_text
+from optipath.plots.light_texts import figures_text, known_light, no_ellipse, one_path, state_text
 from optipath.plots.text import fitting, head, key_below
 from optipath.values.arrays import array_of
 
@@ -34,6 +32,7 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
     from optipath.paths.energy import LightOnLink
+    from optipath.paths.path_graph import PathGraph
     from optipath.values.precision import Numbers
 
 
@@ -322,15 +321,7 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     >>> print(ax.get_legend().get_texts()[0].get_text())
     1  lamp → polarizer
     """
-    if not isinstance(path, PathGraph):
-        raise OptipathError(f"a trail is of a path, not of {shown(path)}; give a PathGraph")
-    links = lights_along(path, **values)
-    for link in links:
-        if known_light(link.light).shape:
-            raise OptipathError(
-                f"{link.name} has light of shape {link.light.shape}, and a trail is of one value "
-                "for each parameter; give one, or draw a batch of light with poincare()"
-            )
+    _, links = one_path(path, "poincare_path", values)
     ax = sphere_axes(ax, (5.4, 6.2 + 0.12 * len(links)))
     points = np.stack([sphere_point(link.light) for link in links])
     # Dashed lines from the light that enters a node to that which leaves it.

@@ -7,17 +7,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.composer.media import with_followed
-from optipath.composer.path_values import Values
 from optipath.composer.placement import azimuth_of
 from optipath.composer.wiring import Wiring
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.vertex_chain import VerticesByAngles
 from optipath.elements.vertices import ChainVertex
-from optipath.errors import OptipathError, PathError, shown
+from optipath.errors import PathError
 from optipath.materials.quantities import plain
-from optipath.paths.energy import lights_along
-from optipath.paths.path_graph import PathGraph
-from optipath.plots.light_texts import ellipse_points
+from optipath.plots.light_texts import ellipse_points, one_path
 from optipath.plots.scene.placing import (
     DrawnLink,
     Placing,
@@ -37,6 +34,7 @@ if TYPE_CHECKING:
     from optipath.elements.element import Element
     from optipath.light.light import Light
     from optipath.paths.energy import LightOnLink
+    from optipath.paths.path_graph import PathGraph
     from optipath.values.precision import Numbers
 
 
@@ -171,31 +169,6 @@ class ShownAngle(NamedTuple):
         return f"{self.name} = {value}" if self.name else value
 
 
-def _known_path(
-    path: PathGraph, what: str, lights: Sequence[LightOnLink], values: dict[str, Any]
-) -> tuple[Wiring, Sequence[LightOnLink]]:
-    """Return the wiring of a path with all its values, one number each, and its lights."""
-    if not isinstance(path, PathGraph):
-        raise OptipathError(f"{what} draws a path, not {shown(path)}; give a PathGraph")
-    lights = lights or lights_along(path, **values)
-    parameters = path.parameters.items()
-    defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
-    graph = path.bind(**{**defaults, **values}).graph
-    shapes = Values(graph).known_shapes | {each.name: each.light.shape for each in lights}
-    for name, shape in shapes.items():
-        if shape:
-            raise PathError(
-                f"{what} draws one path, but {name} has the shape {shape}; give single values"
-            )
-    for each in lights:
-        if not np.isfinite(each.light.stokes).all():
-            raise PathError(
-                f"{what} draws ways that light can go, but on '{each.name}' the light is not a "
-                "number; give values that there are"
-            )
-    return Wiring(with_followed(graph)[0], keep="all"), lights
-
-
 def quantity_text(value: float, unit: str) -> str:
     """Return a value in base units as pictures write it: five digits, and the unit.
 
@@ -246,7 +219,14 @@ def scene_of(
     World frames and chain points are kept. All else is laid out by following the light from its
     source, in the frames of docs/conventions.md: x of a surface is along k_out cross k_in.
     """
-    wiring, lights = _known_path(path, what, lights, values)
+    path, lights = one_path(path, what, values, lights)
+    for each in lights:
+        if not np.isfinite(each.light.stokes).all():
+            raise PathError(
+                f"{what} draws ways that light can go, but on '{each.name}' the light is not a "
+                "number; give values that there are"
+            )
+    wiring = Wiring(with_followed(path.graph)[0], keep="all")
     placing = Placing(wiring)
     rays = tuple(_ray(placing, each) for each in lights)
     lengths = "lengths are chosen: each link is drawn 1 long"
