@@ -35,7 +35,8 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
     parameters = [_parameter(explored, each) for each in explored.parameters.values()]
     if explored.offers_wavelength:
         light = [in_unit(end, WAVELENGTH.unit) for end in VISIBLE]
-        parameters.append(_as_json(WAVELENGTH, "") | {"slider": [*light, 1.0], "offered": True})
+        offered = {"slider": [*light, 1.0], "offered": True}
+        parameters.append(_parameter(explored, WAVELENGTH) | offered)
     choices = [
         {
             "name": name,
@@ -63,32 +64,21 @@ def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
     low, high = inputs.limits.get(name, (parameter.minimum, parameter.maximum))
     default = parameter.default
     text = "" if default is None else parameter.text(default)
-    return _as_json(parameter, text) | {
+    dimension = dimension_of(unit)
+    units = units_of(dimension) if dimension else []
+    return {
+        "name": name,
+        "help": parameter.help,
+        "unit": unit,
+        "units": sorted(units, key=lambda other: other != unit),
         "minimum": plain(low, unit),
         "maximum": plain(high, unit),
         "slider": slider_range(explored, name),
+        "default": text.removesuffix(f" {unit}"),
+        "words": [*parameter.all_words],
         "materials": name in explored.media,
         "bound": parameter.bound,
         "array": np.ndim(default) > 0 or bool(inputs.tails.get(name)),
-    }
-
-
-def _as_json(parameter: Parameter, default: str) -> dict[str, Any]:
-    dimension = dimension_of(parameter.unit)
-    units = units_of(dimension) if dimension else []
-    return {
-        "name": parameter.name,
-        "help": parameter.help,
-        "unit": parameter.unit,
-        "units": sorted(units, key=lambda unit: unit != parameter.unit),
-        "minimum": plain(parameter.minimum, parameter.unit),
-        "maximum": plain(parameter.maximum, parameter.unit),
-        "slider": None,
-        "default": default.removesuffix(f" {parameter.unit}"),
-        "words": [*parameter.all_words],
-        "materials": False,
-        "bound": False,
-        "array": False,
         "offered": False,
     }
 
