@@ -27,7 +27,7 @@ def _run(cases: Cases, *, reads: str | None, as_json: bool, digits: int, **optio
     elif cases.together:
         print_cases(outcomes, digits)
     else:
-        print_outcome(*outcomes.values(), digits)
+        print_outcome(next(iter(outcomes.values())), digits)
 
 
 def _outcome(chosen: Chosen, reads: str | None, options: Mapping[str, Any]) -> Outcome:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, SurfaceError
+from optipath.errors import SurfaceError, told_as
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.quantities import QUANTITIES as OF_LIGHT
@@ -126,11 +126,8 @@ def _sides(
     most, results = max(map(choices, several.values())), {}
     for name, each in several.items():
         own = wavelength if choices(each) == most else None
-        try:
+        with told_as(SurfaceError, str(name)):
             results[str(name)] = SeenSide.of(each, side, own, source)
-        except OptipathError as error:
-            about = f"{name}: " if name else ""
-            raise SurfaceError(*(f"{about}{fault}" for fault in error.faults)) from None
     return results
 
 
