@@ -99,7 +99,7 @@ def test_code_that_is_dropped_frees_its_memory_and_compiling_leaves_nothing(code
 
 def test_memory_holds_as_many_functions_as_it_may(code, monkeypatch, tmp_path):
     monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path))
-    monkeypatch.setenv("OPTIPATH_CACHE_FUNCTIONS", "3")
+    monkeypatch.setattr("optipath.engines.code_cache._MOST_FUNCTIONS", 3)
     cache, asked = CodeCache(), []
 
     def compiling(text):

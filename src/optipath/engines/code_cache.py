@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 _LOGGER = logging.getLogger("optipath")
 _CODE, _DRAFT = ".code", ".draft"
+_MOST_FUNCTIONS = 256
 _CHECKSUM = hashlib.sha256().digest_size
 _TROUBLE = (OSError, RuntimeError, CacheError)
 """What may be wrong with the folder; a circle of links is a RuntimeError."""
@@ -53,8 +54,8 @@ class CodeCache:
     and what is not cached is compiled. Files appear whole under their names; the drafts of killed
     processes are removed by the next.
 
-    *It is bounded.* On disk by ``OPTIPATH_CACHE_BYTES`` (128 MiB), in memory by
-    ``OPTIPATH_CACHE_FUNCTIONS`` (256); the least recently used goes first.
+    *It is bounded.* On disk by ``OPTIPATH_CACHE_BYTES`` (128 MiB), in memory by 256 functions; the
+    least recently used goes first.
 
     >>> CodeCache().limit
     134217728
@@ -80,24 +81,18 @@ class CodeCache:
     @property
     def limit(self) -> int:
         """How many bytes are kept on disk."""
-        return _number_in_environment("OPTIPATH_CACHE_BYTES", 1 << 27)
-
-    @property
-    def most_functions(self) -> int:
-        """How many functions are kept in memory."""
-        return _number_in_environment("OPTIPATH_CACHE_FUNCTIONS", 256)
+        name, default = "OPTIPATH_CACHE_BYTES", 1 << 27
+        text = os.environ.get(name) or str(default)
+        if not text.isascii() or not text.isdigit() or len(text) > 18:
+            raise CacheError(f"{name} is {shown(text)}; set it to a whole number such as {default}")
+        return int(text)
 
     def function(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         """Return the function of a text, compiled (and logged once) where it is not cached."""
         with self._lock:
             result = self._functions.pop(text, None) or self._loaded(text, compiled)
             self._functions[text] = result
-            try:
-                most = self.most_functions
-            except CacheError as error:
-                most = 1
-                self.tell(str(error))
-            while len(self._functions) > most:
+            if len(self._functions) > _MOST_FUNCTIONS:
                 del self._functions[next(iter(self._functions))]
             return result
 
@@ -247,14 +242,6 @@ def _bytes_of(file: Path) -> bytes:
             raise CacheError(f"'{file}' in the cache is no file; remove it")
         _refuse_foreign(file, about)
         return stream.read()
-
-
-def _number_in_environment(name: str, default: int) -> int:
-    """Return a number of the environment."""
-    text = os.environ.get(name) or str(default)
-    if not text.isascii() or not text.isdigit() or len(text) > 18:
-        raise CacheError(f"{name} is {shown(text)}; set it to a whole number such as {default}")
-    return int(text)
 
 
 def _checksum(name: str, code: bytes) -> bytes:
