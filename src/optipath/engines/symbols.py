@@ -174,13 +174,10 @@ class Recorder:
             # Whole numbers beside others are made like them.
             kind = "float" if about.kind == "float" else strongest(operands)
             kinds = (kind,) * len(operands)
-        operands = tuple(
-            [
-                o if isinstance(o, Symbol) else self.kinds[its](o)
-                for o, its in zip(operands, kinds, strict=True)
-            ]
-        )
         symbols = [operand for operand in operands if isinstance(operand, Symbol)]
+        if len(symbols) < len(operands):
+            pairs = zip(operands, kinds, strict=True)
+            operands = tuple([o if isinstance(o, Symbol) else self.kinds[k](o) for o, k in pairs])
         if not symbols:
             with np.errstate(all="ignore"):
                 return about.ufunc(*operands)[()]
@@ -191,7 +188,7 @@ class Recorder:
         if about.commutes:
             names = frozenset(names)
         kind = kind if about.kind == "same" else about.kind
-        axes = frozenset().union(*[symbol.axes for symbol in symbols])
+        axes = symbols[0].axes.union(*[symbol.axes for symbol in symbols[1:]])
         symbol = self.entered((operation, names), operation, operands, kind, axes)
         symbol.positive = kind == "float" and stays_positive(operation, operands)
         return symbol
