@@ -165,7 +165,7 @@ def test_an_open_index_costs_what_a_known_one_does_where_it_is_real(name):
     lights = [plan.run(**given) for given in [{}, {"m": OPEN[name]}] * 4]
     assert {tuple(light.stokes) for light in lights} == {tuple(boundary().run().stokes)}
     single = plan.answers.light.single
-    assert single.fast_path({"m": OPEN[name]}) is not None
+    assert single.fast_path({"m": OPEN[name]}, 0) is not None
     assert all("imag" not in name for name in next(iter(single.functions.values())).names)
 
 

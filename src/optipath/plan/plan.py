@@ -119,18 +119,15 @@ class Plan:
         if self.instead is not None:
             return self.run_all(**parameters)[name]
         answers = self.answers
-        fast_path = answers.light.single.fast_path(parameters)
+        stokes: Any = answers.light.single.fast_path(parameters, place)
         if type(frame) is not Frame:
             frame = answers.framed(frame, parameters)
         noise = (noise_at, answers, name, parameters, ())
         by = answers.wavelengths
         later = LaterWavelength(by, self.inputs, parameters) if by else None
-        if fast_path is not None:
-            if self.inputs.turning:
-                self.inputs.warn_of_angles(parameters)
-            stokes = fast_path[place]
-        else:
+        if stokes is None or self.inputs.turning:
             self.inputs.warn_of_angles(parameters)
+        if stokes is None:
             stokes = answers.lights(parameters)[name]
         return Light.of(stokes, frame, noise=noise, wavelength=later)
 

@@ -72,8 +72,8 @@ class ScalarRunner:
         self.following = FollowingFloats(self.inputs) if self.inputs.computed else None
         self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
-    def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
-        """Return what `lights` gives for plain floats, unread; None where it takes more care."""
+    def fast_path(self, parameters: Mapping[str, Any], place: int) -> tuple[Any, ...] | None:
+        """Return the light at one end for plain floats, unread; None where it takes more care."""
         if self._default_call is None:
             return None
         path, order, names = self._default_call
@@ -84,7 +84,13 @@ class ScalarRunner:
         if numbers is None:
             return None
         get = numbers.get
-        return _called(path, [get(name, default) for name, default in order])
+        try:
+            result = path(*[get(name, default) for name, default in order])
+        except _REFUSED:
+            return None
+        if result is None or len(result) == 4:
+            return result
+        return result[4 * place : 4 * place + 4]
 
     def lights(self, arguments: Batch) -> Lights | None:
         """Return (S0, S1, S2, S3) at every end; None where that takes more care."""
@@ -96,7 +102,11 @@ class ScalarRunner:
             self._looked_at.add(nothing)
             if self._is_default(arguments) and not self.inputs.agreements and self._defaults_hold():
                 self._default_call = self._unread(arguments, function)
-        return _called(function.path, [arguments.numbers[name] for name in function.names])
+        try:
+            result = function.path(*[arguments.numbers[name] for name in function.names])
+        except _REFUSED:
+            return None
+        return result and [result[first : first + 4] for first in range(0, len(result), 4)]
 
     def function(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         """Return the function for what is not there, as `Batch.nothing`, if it can be."""
@@ -155,17 +165,6 @@ class ScalarRunner:
             order,
             frozenset(n for n in request & opened.keys() if n not in optional and parts[n] <= 1),
         )
-
-
-def _called(path: Any, numbers: list[Any]) -> Lights | None:
-    """Return the lights that a function gives."""
-    try:
-        result = path(*numbers)
-    except _REFUSED:
-        return None
-    if result is None or len(result) == 4:
-        return result and [result]
-    return [result[first : first + 4] for first in range(0, len(result), 4)]
 
 
 class FollowingFloats:
