@@ -158,7 +158,7 @@ def test_an_interrupt_tells_what_is_done_and_keeps_directions_and_measurements(r
         walk(self, *given)
 
     def one_alone(walked, measurement):
-        if walked.walks.incidence != "0 deg":
+        if walked.incidence != "0 deg":
             raise KeyboardInterrupt
         return share.of(walked, measurement)
 

@@ -11,14 +11,13 @@ from optipath.surfaces.reproduction import (
     MEASURES,
     Experiment,
     Measurement,
-    Walks,
     experiment_names,
     load_experiment,
     reproduce,
 )
 from tables import rows
 
-AT_60, AT_80 = Walks("60 deg", (), None), Walks("80 deg", (), None)
+AT_60, AT_80 = "60 deg", "80 deg"
 ROUGH = op.Sample([(1.5, 0.3), (2.4, 0.3)], surfaces=2, cells=400)
 OWN = """\
 format = 1
@@ -36,7 +35,7 @@ TEXT, TABLE = 'text = "a tenth"', "[[measurements]]"
 
 
 def test_a_value_agrees_within_the_range_what_is_allowed_and_two_errors():
-    one = Measurement("adm", "16.5 to 18 %", AT_60, (0.165, 0.18), within=0.0150001)
+    one = Measurement("adm", "16.5 to 18 %", AT_60, None, (0.165, 0.18), within=0.0150001)
     for value, error in ((0.165, 0.0), (0.151, 0.0), (0.149, 0.001), (0.1481, 0.001), (0.195, 0.0)):
         assert one.agrees(value, error) is True
     for value, error in ((0.149, 0.0), (0.1479, 0.001), (0.1951, 0.0), (math.nan, 0.0)):
@@ -44,9 +43,9 @@ def test_a_value_agrees_within_the_range_what_is_allowed_and_two_errors():
     assert Measurement("adm", "larger", AT_60).agrees(0.165, 0.0) is None
     # Measurements of one direction share photons, in the order of the file.
     pairs = [("adm", AT_60), ("adm", AT_80), ("mdm", AT_60), ("mdm", AT_80)]
-    several = tuple(Measurement(measure, "", walks) for measure, walks in pairs)
+    several = tuple(Measurement(measure, "", incidence) for measure, incidence in pairs)
     found = reproduce(Experiment("own", "", "", op.Sample([(1.5, 0.1)]), several, sensor=8), 20_000)
-    shared = [(one.measurement.walks, one.measurement.measure) for one in found]
+    shared = [(one.measurement.incidence, one.measurement.measure) for one in found]
     assert shared == [(AT_60, "adm"), (AT_60, "mdm"), (AT_80, "adm"), (AT_80, "mdm")]
 
 
@@ -73,17 +72,17 @@ def test_every_published_sample_has_an_experiment_with_its_source_numbers_and_wa
     with pytest.raises(op.SurfaceError, match="did you mean 'wang-2017-table-1'"):
         load_experiment("wang-2017-tabel-1")
     found = load_experiment("wang-2017-simulation-01").measurements
-    known = {one.walks.incidence: one.published for one in found}
+    known = {one.incidence: one.published for one in found}
     numbers = {"50 deg": 0.165, "56 deg": 0.19, "60 deg": 0.205, "65 deg": 0.215}
     assert known == {angle: (number, number) for angle, number in numbers.items()}
     # Metals are looked at from 380 to 700 nm.
-    walks = load_experiment("wang-2017-simulation-07").measurements[0].walks
-    assert walks.wavelengths == tuple(f"{each} nm" for each in range(380, 701, 40))
+    found = load_experiment("wang-2017-simulation-07")
+    assert found.wavelengths == tuple(f"{each} nm" for each in range(380, 701, 40))
 
 
 def test_a_file_of_ones_own_may_have_a_sample_beside_it_pixels_and_wavelengths(tmp_path):
     found = load_experiment(written(tmp_path, OWN)).measurements
-    known = [(one.walks.incidence, one.published) for one in found]
+    known = [(one.incidence, one.published) for one in found]
     assert known == [("60 deg", (0.1, 0.1)), ("1 rad", (0.05, 0.1))]
     (tmp_path / "pane.toml").write_text(op.Sample([(1.7, 0.0)]).to_toml(), "utf-8")
     text = OWN.replace("glass-rough", "pane.toml")
@@ -100,7 +99,7 @@ def test_a_file_of_ones_own_may_have_a_sample_beside_it_pixels_and_wavelengths(t
     assert fault.startswith("wavelengths: ")
     assert fault.endswith("depends on the wavelength; give one, --wavelength '550 nm'")
     cured = load_experiment(written(tmp_path, text.replace(TABLE, f"{cure}\n{TABLE}")))
-    assert cured.measurements[0].walks.wavelengths == ("550 nm",)
+    assert cured.wavelengths == ("550 nm",)
 
 
 def test_all_faults_of_a_file_are_told_at_once(tmp_path):
@@ -189,7 +188,7 @@ def amplitudes(m, theta):
 
 
 def found(sample, measure, incidence, photons=20_000, **more):
-    one = Measurement(measure, "", Walks(incidence, (), more.pop("cells", None)), **more)
+    one = Measurement(measure, "", incidence, **more)
     (again,) = walked(Experiment("own", "", "", sample, (one,), sensor=64), photons)
     assert (again.measurement, again.photons) == (one, photons)
     return again.found

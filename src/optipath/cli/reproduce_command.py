@@ -114,9 +114,7 @@ def _print(experiment: Experiment, results: Sequence[Reproduced], *, first: bool
 def _row(one: Reproduced) -> Iterator[str]:
     request, found = one.measurement, one.found
     yield request.measure
-    yield request.walks.incidence + (
-        f", {request.walks.cells} cells" if request.walks.cells else ""
-    )
+    yield request.incidence + (f", {request.cells} cells" if request.cells else "")
     yield " to ".join(dict.fromkeys(f"{number:g}" for number in request.published or ()))
     yield "none" if np.isnan(found.value) else measured(found.value, found.error)
     yield _AGREES[one.agrees]
@@ -129,18 +127,18 @@ def reproduced_as_json(experiment: Experiment, results: Sequence[Reproduced]) ->
         "experiment": experiment.name,
         "description": experiment.description,
         "source": experiment.source,
-        "measurements": [_as_json(one) for one in results],
+        "measurements": [_as_json(experiment, one) for one in results],
     }
 
 
-def _as_json(one: Reproduced) -> dict[str, Any]:
-    request, walks, found = one.measurement, one.measurement.walks, one.found
+def _as_json(experiment: Experiment, one: Reproduced) -> dict[str, Any]:
+    request, found = one.measurement, one.found
     return {
         "measure": request.measure,
         "text": request.text,
-        "incidence": walks.incidence,
-        "wavelengths": [*walks.wavelengths],
-        "cells": walks.cells,
+        "incidence": request.incidence,
+        "wavelengths": [*experiment.wavelengths],
+        "cells": request.cells,
         "stokes": [*request.stokes],
         "published": None if request.published is None else [*request.published],
         "within": request.within,

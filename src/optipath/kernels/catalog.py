@@ -1,5 +1,6 @@
 """Every kernel by name: a factory over `Primitives`, bound to the structure of what it returns."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any, TypeAlias
@@ -26,8 +27,8 @@ from optipath.kernels.vertex_chain import (
     refraction_at_vertex,
 )
 
-Factories: TypeAlias = tuple[Factory, ...]
-"""One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""
+Row: TypeAlias = tuple[Factory, tuple[Known, ...], *tuple[Factory, ...]]
+"""What makes a kernel, what is known of its numbers, and what makes the powers alone, if any."""
 
 _COS, _SIN = -2, -1
 _NORMAL = (("..0.0", _SIN),)
@@ -50,72 +51,63 @@ def _given(count: int, first: int = 0) -> tuple[Known, ...]:
 
 
 def _fresnel(
-    what: str,
-    known: dict[str, tuple[tuple[Known, ...], ...]],
-    intensities: Factories = (),
-    **methods: Factories,
+    what: str, exact: Sequence[Row], lossless: tuple[Known, ...] = (), **textbooks: Row
 ) -> KernelFamily:
-    """Return the kernels of all methods; each has the slopes of the stable one."""
-    exact, results = methods["stable"], {}
-    for method, factories in methods.items():
-        name, declared = f"{what} ({method}", known.get(method, ((), ()))
-        if method == "stable":
-            results[method] = _cheaper_within(name, factories, declared, intensities)
-        else:
-            results[method] = _cheaper_within(name, tuple(map(Sloped, factories, exact)), declared)
-    return KernelFamily(what, results)
+    """Return the kernels of all methods; each has the slopes of the stable one.
+
+    The exact ones are for any media, for k = 0, and for n >= n1 besides; `lossless` is known of
+    the second in twice the precision.
+    """
+    known = zip(exact, ((), lossless), strict=False)
+    others: dict[str, list[Row]] = {"compensated": [(Compensated(row[0]), of) for row, of in known]}
+    others |= {name: [(Refracting(row[0]), row[1])] for name, row in textbooks.items()}
+    methods = {"stable": _cheaper_within(f"{what} (stable", exact)}
+    for method, rows in others.items():
+        pairs = zip(rows, exact, strict=False)
+        sloped = [(Sloped(own[0], stable[0]), own[1]) for own, stable in pairs]
+        methods[method] = _cheaper_within(f"{what} ({method}", sloped)
+    return KernelFamily(what, methods)
 
 
-def _cheaper_within(
-    name: str,
-    factories: Factories,
-    known: tuple[tuple[Known, ...], ...],
-    intensities: Factories = (),
-) -> Kernel:
-    """Return the kernel of the first factory, which knows the cheaper ones of the others."""
+_MEDIA = ")", ", lossless)", ", lossless, from the rarer side)"
+
+
+def _cheaper_within(name: str, rows: Sequence[Row]) -> Kernel:
+    """Return the kernel of the first row, which knows the cheaper ones of the others."""
     result: Any = None
-    powers: Kernel | None = None
-    words = (")", ", lossless)", ", lossless, from the rarer side)")
-    for place in reversed(range(len(factories))):
+    powers: Any = None
+    for place, (factory, known, *intensities) in reversed([*enumerate(rows)]):
+        own = name + _MEDIA[place]
+        for made_by in intensities:
+            cheaper = (2, powers) if place == 0 else None
+            powers = Kernel(f"{own}, powers", POWERS, made_by, cheaper)
         # Of (n1, n, k, cos, sin), k is the third; of (n1, n, cos, sin), n is to be n1 or more.
         without = (2, result) if place == 0 and result else None
         denser = (1, 0, result) if place == 1 and result else None
-        own = name + words[place]
-        if intensities:
-            cheaper = (2, powers) if place == 0 and powers else None
-            powers = Kernel(f"{own}, powers", POWERS, intensities[place], cheaper)
-        made_by = factories[place]
-        result = Kernel(own, BLOCK, made_by, without, denser, powers, known=known[place])
+        result = Kernel(own, BLOCK, factory, without, denser, powers, known=known)
     kernel: Kernel = result
     return kernel
 
 
 REFLECTION = _fresnel(
     "Fresnel reflection",
-    {
-        "stable": (_NORMAL_OR_GRAZING, _NORMAL_OR_GRAZING, (*_NORMAL_OR_GRAZING, *_NO_S)),
-        "amplitude": ((_NO_S_IF_LOSSLESS,),),
-    },
-    (variants.reflected_powers, variants.lossless_powers, variants.denser_powers),
-    stable=(stable.stable_reflection, stable.lossless_reflection, stable.denser_reflection),
-    compensated=(Compensated(stable.stable_reflection), Compensated(stable.lossless_reflection)),
-    amplitude=(Refracting(textbook.amplitude_reflection),),
-    textbook=(Refracting(textbook.textbook_reflection),),
+    [
+        (stable.stable_reflection, _NORMAL_OR_GRAZING, variants.reflected_powers),
+        (stable.lossless_reflection, _NORMAL_OR_GRAZING, variants.lossless_powers),
+        (stable.denser_reflection, (*_NORMAL_OR_GRAZING, *_NO_S), variants.denser_powers),
+    ],
+    amplitude=(textbook.amplitude_reflection, (_NO_S_IF_LOSSLESS,)),
+    textbook=(textbook.textbook_reflection, ()),
 )
 TRANSMISSION = _fresnel(
     "Fresnel transmission",
-    {
-        "stable": (_LETS_THROUGH, (*_LETS_THROUGH, *_NO_S)),
-        "compensated": ((), _NO_S),
-        "amplitude": ((("00000", _COS), _NO_S_IF_LOSSLESS),),
-    },
-    stable=(stable.stable_transmission, stable.lossless_transmission),
-    compensated=(
-        Compensated(stable.stable_transmission),
-        Compensated(stable.lossless_transmission),
-    ),
-    amplitude=(Refracting(textbook.amplitude_transmission),),
-    textbook=(Refracting(textbook.textbook_transmission),),
+    [
+        (stable.stable_transmission, _LETS_THROUGH),
+        (stable.lossless_transmission, (*_LETS_THROUGH, *_NO_S)),
+    ],
+    _NO_S,
+    amplitude=(textbook.amplitude_transmission, (("00000", _COS), _NO_S_IF_LOSSLESS)),
+    textbook=(textbook.textbook_transmission, ()),
 )
 METHODS = tuple(REFLECTION.methods)
 

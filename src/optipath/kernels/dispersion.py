@@ -98,21 +98,18 @@ def _poles_and_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
     return index_of_square(xp, c[0] + sum(poles) + _powers(w, c[9:]))
 
 
-def _by_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
+def _by_powers(_: Any, w: Any, c: Sequence[float]) -> Any:
     """Return n by formula 5, after Cauchy: n = C1 + C2 w^C3 + ..."""
-    del xp
     return c[0] + _powers(w, c[1:])
 
 
-def _of_gases(xp: Any, w: Any, c: Sequence[float]) -> Any:
+def _of_gases(_: Any, w: Any, c: Sequence[float]) -> Any:
     """Return n by formula 6: n - 1 = C1 + C2/(C3 - w^-2) + ..."""
-    del xp
     return 1.0 + c[0] + sum(a / (b - w**-2) for a, b in _grouped(c[1:], 2))
 
 
-def _herzberger(xp: Any, w: Any, c: Sequence[float]) -> Any:
+def _herzberger(_: Any, w: Any, c: Sequence[float]) -> Any:
     """Return n by formula 7: n = C1 + C2 L + C3 L^2 + C4 w^2 + ..., L = 1/(w^2 - 0.028)."""
-    del xp
     lorentz = 1.0 / (w**2 - 0.028)
     rest = sum(factor * w ** (2 * at) for at, factor in enumerate(c[3:], 1))
     return c[0] + c[1] * lorentz + c[2] * lorentz**2 + rest

@@ -63,10 +63,9 @@ class DoubleDouble:
     def __mul__(self, other: Any) -> DoubleDouble:
         if _is_power_of_two(other):
             return self._of(self.high * other, self.low * other)
-        if not isinstance(other, DoubleDouble):
-            other = self._of(other)
-        product, rest = self.xp.two_product(self.high, other.high)
-        rest = rest + (self.high * other.low + self.low * other.high)
+        high, low = high_and_low(other)
+        product, rest = self.xp.two_product(self.high, high)
+        rest = rest + (self.high * low + self.low * high)
         return self._of(*_quick_two_sum(product, rest))
 
     __rmul__ = __mul__

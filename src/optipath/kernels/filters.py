@@ -41,21 +41,18 @@ def retarder(xp: Primitives) -> KernelFunction:
     return retard
 
 
-def attenuator(xp: Primitives) -> KernelFunction:
+def attenuator(_: Primitives) -> KernelFunction:
     """Make ``(transmittance,) -> (t,)``."""
-    del xp
     return lambda transmittance: (transmittance,)
 
 
-def complement(xp: Primitives) -> KernelFunction:
+def complement(_: Primitives) -> KernelFunction:
     """Make ``(reflectance,) -> (1 - reflectance,)``: what a lossless splitter lets through."""
-    del xp
     return lambda reflectance: (1.0 - reflectance,)
 
 
-def depolarizer(xp: Primitives) -> KernelFunction:
+def depolarizer(_: Primitives) -> KernelFunction:
     """Make ``(depolarization,) ->`` the sixteen numbers of diag(1, p, p, p), p = 1 - d."""
-    del xp
     return lambda depolarization: diagonal(1.0 - depolarization)
 
 
@@ -64,33 +61,28 @@ def diagonal(p: Any) -> tuple[Any, ...]:
     return 1.0, *(p if place % 5 == 0 else 0.0 for place in range(1, 16))
 
 
-def mirror(xp: Primitives) -> KernelFunction:
+def mirror(_: Primitives) -> KernelFunction:
     """Make ``(reflectance,) -> (Fs, Fp, B, C, S)`` of an ideal mirror, r_p = -r_s."""
-    del xp
     return lambda reflectance: (reflectance, reflectance, 0.0, -reflectance, 0.0)
 
 
-def given(xp: Primitives) -> KernelFunction:
+def given(_: Primitives) -> KernelFunction:
     """Make the function that returns the numbers it is given."""
-    del xp
     return lambda *numbers: numbers
 
 
-def unpolarized(xp: Primitives) -> KernelFunction:
+def unpolarized(_: Primitives) -> KernelFunction:
     """Make ``(intensity,) -> (I, 0, 0, 0)``."""
-    del xp
     return lambda intensity: (intensity, 0.0, 0.0, 0.0)
 
 
-def polarized(xp: Primitives) -> KernelFunction:
+def polarized(_: Primitives) -> KernelFunction:
     """Make ``(I, s0, s1, s2, s3) -> (I s0, I s1, I s2, I s3)``."""
-    del xp
     return lambda intensity, *state: tuple(intensity * component for component in state)
 
 
-def product(xp: Primitives) -> KernelFunction:
+def product(_: Primitives) -> KernelFunction:
     """Make ``(I, density) -> (I density,)``: what is emitted at a wavelength."""
-    del xp
     return lambda intensity, density: (intensity * density,)
 
 
@@ -116,12 +108,11 @@ def turn_back(xp: Primitives) -> KernelFunction:
     return turned_back
 
 
-def align(xp: Primitives) -> KernelFunction:
+def align(_: Primitives) -> KernelFunction:
     """Make ``(d, e) -> (cos 2a, sin 2a)``, (d - e)(d + e) and 2 d e over d^2 + e^2.
 
     d = x . x', e = z . (x cross x').
     """
-    del xp
 
     def aligned(d: Any, e: Any) -> tuple[Any, Any]:
         norm = d * d + e * e

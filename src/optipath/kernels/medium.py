@@ -146,25 +146,11 @@ def _generator(xp: Primitives) -> KernelFunction:
     """Make the six numbers that `lorentz` takes of what is given per metre."""
     turned = turn(xp)
 
-    def of_rates(
-        linear: Any,
-        circular: Any,
-        retardance: Any,
-        rotation: Any,
-        dichroic_angle: Any,
-        angle: Any,
-        length: Any,
-    ) -> tuple[Any, ...]:
+    def of_rates(*rates: Any) -> tuple[Any, ...]:
+        linear, circular, retardance, rotation, dichroic_angle, angle, length = rates
         cos, sin = turned(dichroic_angle - angle)
-        along = linear * length
-        return (
-            along * cos,
-            along * sin,
-            circular * length,
-            retardance * length,
-            0.0,
-            2.0 * (rotation * length),
-        )
+        along, q3 = linear * length, 2.0 * (rotation * length)
+        return along * cos, along * sin, circular * length, retardance * length, 0.0, q3
 
     return of_rates
 

@@ -53,10 +53,6 @@ def made(factory: Callable[[Primitives], T], primitives: Primitives) -> T:
     return factory(primitives)
 
 
-def _itself(value: Any) -> Any:
-    return value
-
-
 def is_below_rounding(larger: Any, number: Any) -> Any:
     """Tell whether a number is no more than the rounding of a larger one, its square of 1.
 
@@ -107,44 +103,31 @@ def _fused_two_product(a: float, b: float) -> tuple[float, float]:
     return product, math.fma(a, b, -product)  # type: ignore[attr-defined,unused-ignore] # Python 3.13
 
 
+def _primitives(xp: Any, **others: Any) -> Primitives:
+    """Return primitives of a module's functions, but for those that are given."""
+    own = {name: getattr(xp, name) for name in ("sqrt", "sin", "cos", "exp", "ldexp")}
+    own |= {"scaling": lambda number: xp.frexp(number)[1], "two_product": product_and_rest}
+    own |= {"below_rounding": is_below_rounding, "fixed": lambda value: value}
+    return Primitives(**own | others)
+
+
 def of_module(xp: Any) -> Primitives:
     """Return the primitives of a module with NumPy's functions, ``numpy`` or ``jax.numpy``."""
-    return Primitives(
-        where=xp.where,
-        sqrt=xp.sqrt,
-        absolute=xp.absolute,
-        maximum=xp.maximum,
-        minimum=xp.minimum,
-        sin=xp.sin,
-        cos=xp.cos,
-        exp=xp.exp,
-        atan2=xp.arctan2,
-        scaling=lambda number: xp.frexp(number)[1],
-        ldexp=xp.ldexp,
-        two_product=product_and_rest,
-        below_rounding=is_below_rounding,
-        fixed=_itself,
-        integer=lambda number: xp.asarray(number).astype(int),
-    )
+    names = "where", "absolute", "maximum", "minimum"
+    others = {name: getattr(xp, name) for name in names} | {"atan2": xp.arctan2}
+    return _primitives(xp, integer=lambda number: xp.asarray(number).astype(int), **others)
 
 
 NUMPY = replace(of_module(np), below_rounding=_below_rounding_in_arrays)
 
-FLOAT = Primitives(
+FLOAT = _primitives(
+    math,
     where=lambda condition, yes, no: yes if condition else no,
-    sqrt=math.sqrt,
     absolute=abs,
     maximum=max,
     minimum=min,
-    sin=math.sin,
-    cos=math.cos,
-    exp=math.exp,
     atan2=math.atan2,
-    scaling=lambda number: math.frexp(number)[1],
-    ldexp=math.ldexp,
     two_product=_fused_two_product if hasattr(math, "fma") else product_and_rest,
-    below_rounding=is_below_rounding,
-    fixed=_itself,
 )
 
 

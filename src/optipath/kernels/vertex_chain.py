@@ -37,11 +37,7 @@ class Leg(NamedTuple):
 def incidence(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
     """Make ``(x0, y0, z0, ..., z2) -> (cos, sin)``: half |k_out - k_in| and half |k_out + k_in|."""
     along, between = legs(xp), incidence_between(xp)
-
-    def met(*coordinates: Any) -> tuple[Any, Any]:
-        return between(*along(points_of(coordinates)))
-
-    return met
+    return lambda *coordinates: between(*along(points_of(coordinates)))
 
 
 def incidence_between(xp: Primitives) -> Callable[[Leg, Leg], tuple[Any, Any]]:
@@ -133,12 +129,7 @@ _ROUNDINGS = 2.0**-10
 def refraction_at_vertex(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n2, x0, y0, z0, ..., z2) -> (rarer, denser, cos, sin)``."""
     along, met = legs(xp), refracted(xp)
-
-    def refraction(n1: Any, n2: Any, *coordinates: Any) -> tuple[Any, Any, Any, Any]:
-        before, behind = along(points_of(coordinates))
-        return met(n1, n2, before, behind)
-
-    return refraction
+    return lambda n1, n2, *coordinates: met(n1, n2, *along(points_of(coordinates)))
 
 
 def refracted(xp: Primitives) -> Callable[[Any, Any, Leg, Leg], tuple[Any, Any, Any, Any]]:
@@ -185,8 +176,8 @@ def refracted(xp: Primitives) -> Callable[[Any, Any, Leg, Leg], tuple[Any, Any, 
 _PARALLEL = 2.0**-50
 """The sine of twice an incidence below which it is the rounding of the points."""
 
-_PARALLEL_IN_SINGLES, _BELOW_SINGLES = 2.0**-19, 1e-9
-"""The same in single precision; and what a 1 does not notice there."""
+_PARALLEL_IN_SINGLES = 2.0**-19
+"""The same in single precision."""
 
 _NEARLY = 2.0**-26
 """The same below which half of the digits are, so that other knowledge of a plane is better."""
@@ -321,9 +312,8 @@ class PointsByAngles:
         points = self.last - self.first + 1
         return 3 * (points + (points - 2) * self.axes)
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
+    def __call__(self, _: Primitives) -> KernelFunction:
         """Return the function of cosines and sines."""
-        del xp
         count, middle = self.reflections, self.reflections // 2
         first, last, order = self.first, self.last, 1
         if self.backwards:

@@ -26,21 +26,14 @@ if TYPE_CHECKING:
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
 
 
-class Walks(NamedTuple):
-    """The photons that measurements have in common."""
-
-    incidence: str
-    wavelengths: tuple[str, ...]
-    cells: int | None
-
-
 @dataclass(frozen=True)
 class Measurement:
     """A number that is published, and how it is measured."""
 
     measure: str
     text: str
-    walks: Walks
+    incidence: str
+    cells: int | None = None
     published: tuple[float, float] | None = None
     within: float = 0.0
     brighter_than: float = 0.2
@@ -68,6 +61,7 @@ class Experiment:
     measurements: tuple[Measurement, ...]
     sensor: int = 128
     photons: int = 1_000_000
+    wavelengths: tuple[str, ...] = ()
 
 
 class Measured(NamedTuple):
@@ -100,18 +94,20 @@ def reproduce(
 
     >>> mirror = load_experiment("wang-2017-table-2-alpha-0-4")
     >>> for one in reproduce(mirror, photons=10_000):
-    ...     print(one.measurement.walks.incidence, round(one.found.value, 12), one.agrees)
+    ...     print(one.measurement.incidence, round(one.found.value, 12), one.agrees)
     10 deg 1.0 True
     45 deg 1.0 True
     80 deg 1.0 True
     """
     count = experiment.photons if photons is None else photons
     options = {"seed": seed, "threads": threads, "progress": progress}
-    for walks in dict.fromkeys(one.walks for one in experiment.measurements):
-        walked = Walked(experiment, walks, count, options)
-        for one in (each for each in experiment.measurements if each.walks == walks):
+    for light in dict.fromkeys((one.incidence, one.cells) for one in experiment.measurements):
+        walked = Walked(experiment, *light, count, options)
+        for one in experiment.measurements:
+            if (one.incidence, one.cells) != light:
+                continue
             with warnings.catch_warnings():
-                if walks.cells is not None:  # A coarse mesh is what is looked at.
+                if one.cells is not None:  # A coarse mesh is what is looked at.
                     warnings.simplefilter("ignore", MeshWarning)
                 found = MEASURES[one.measure].of(walked, one)
             yield Reproduced(one, found, count, one.agrees(found.value, found.error))
@@ -226,15 +222,16 @@ class Walked:
     """Photons of an experiment; each kind of them is walked once, when it is asked for."""
 
     experiment: Experiment
-    walks: Walks
+    incidence: str
+    cells: int | None
     photons: int
     options: dict[str, Any]
 
     @cached_property
     def energy(self) -> Callable[[tuple[float, ...]], Energy]:
         """What share of light of a Stokes vector comes back and goes through."""
-        wavelength = next(iter(self.walks.wavelengths), None)
-        walk = partial(energy, self.sample, self.walks.incidence, self.photons, **self.options)
+        wavelength = next(iter(self.experiment.wavelengths), None)
+        walk = partial(energy, self.sample, self.incidence, self.photons, **self.options)
         return cache(lambda stokes: walk(wavelength=wavelength, stokes=stokes))
 
     @cached_property
@@ -250,13 +247,13 @@ class Walked:
     @cached_property
     def sample(self) -> Sample:
         """What light falls on, with the mesh that is asked for."""
-        cells, sample = self.walks.cells, self.experiment.sample
+        cells, sample = self.cells, self.experiment.sample
         return sample if cells is None else replace(sample, cells=(cells, cells))
 
     def _measure(self, events: int | None) -> Hemisphere:
-        walks, options = self.walks, {"sensor": self.experiment.sensor, **self.options}
-        light = walks.incidence, self.photons, [*walks.wavelengths] or None
-        return measure(self.sample, *light, events=events, **options)
+        wavelengths, sensor = [*self.experiment.wavelengths] or None, self.experiment.sensor
+        light = self.incidence, self.photons, wavelengths, sensor
+        return measure(self.sample, *light, events=events, **self.options)
 
 
 def model_of(hemisphere: Hemisphere) -> Numbers:
@@ -342,7 +339,7 @@ def _experiment(name: str, document: dict[str, Any], folder: Path) -> Experiment
     if faults or sample is None:
         raise SurfaceError(*dict.fromkeys(faults))
     about = document["description"], document["source"]
-    return Experiment(name, *about, sample, tuple(results), **more)
+    return Experiment(name, *about, sample, tuple(results), wavelengths=wavelengths, **more)
 
 
 def _measurements(
@@ -386,7 +383,7 @@ def _measurements(
     limits: dict[str, Any] = {name: float(table[name]) for name in _LIMITS if name in table}
     about = {"text": table["text"], "stokes": stokes, **limits}
     return [
-        Measurement(measure, walks=Walks(angle, wavelengths, cells), published=number, **about)
+        Measurement(measure, incidence=angle, cells=cells, published=number, **about)
         for angle, number in zip(angles, published, strict=True)
     ]
 

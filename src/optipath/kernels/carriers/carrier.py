@@ -95,14 +95,12 @@ class StokesCarrier(Carrier):
 class MatrixCarrier(Carrier):
     """Carries columns of Mueller matrices: every element is its matrix, and nothing else."""
 
-    def emit(self, stokes: Components, count: int = 4) -> Components:
-        del count  # All four, whatever is asked for.
+    def emit(self, stokes: Components, _: int = 4) -> Components:
         return stokes
 
     def act(
-        self, structure: Structure, numbers: Numbers, state: Components, count: int = 4
+        self, structure: Structure, numbers: Numbers, state: Components, _: int = 4
     ) -> Components:
-        del count
         rows = structure.rows(self.xp, numbers)
         # Entries that a shape of matrix never has are plain zeros.
         first, second, third, fourth = (products(*zip(row, state, strict=True)) for row in rows)
@@ -116,8 +114,7 @@ class MatrixCarrier(Carrier):
         parts = {junction: _parts(s, solver.count(junction)) for junction, s in arriving.items()}
         return {junction: _whole(result) for junction, result in solver.lights(parts).items()}
 
-    def read(self, state: Components, count: int = 4) -> tuple[Components, Any]:
-        del count
+    def read(self, state: Components, _: int = 4) -> tuple[Components, Any]:
         return state, 0
 
 
@@ -144,14 +141,12 @@ class JonesCarrier(Carrier):
         super().__init__(xp)
         self._incoherent = ScaledCarrier(xp)
 
-    def emit(self, stokes: Components, count: int = 4) -> JonesState:
-        del count  # A column is carried whole.
+    def emit(self, stokes: Components, _: int = 4) -> JonesState:
         return self._resolved(_columns(self.xp, carry(self.xp, stokes)), 0)
 
     def act(
-        self, structure: Structure, numbers: Numbers, state: JonesState, count: int = 4
+        self, structure: Structure, numbers: Numbers, state: JonesState, _: int = 4
     ) -> JonesState:
-        del count
         columns, exponent = state
         assert structure.jones is not None  # noqa: S101 - the composer refuses what may depolarise
         return self._resolved(structure.jones(self.xp, numbers, columns), exponent)
@@ -163,8 +158,7 @@ class JonesCarrier(Carrier):
         carried = tuple(self.xp.ldexp(component, odd) for component in carried)
         return self._resolved(_columns(self.xp, carried), (exponent - odd) // 2)
 
-    def read(self, state: JonesState, count: int = 4) -> tuple[Components, Any]:
-        del count
+    def read(self, state: JonesState, _: int = 4) -> tuple[Components, Any]:
         carried, exponent = self._carried(state)
         return stokes_of(self.xp, carried), exponent
 

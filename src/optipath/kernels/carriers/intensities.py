@@ -53,8 +53,7 @@ class IntensityCarrier(Carrier):
         x2, y2, over2 = along_x_and_y(second)
         return x1 * over2 + x2 * over1, y1 * over2 + y2 * over1, over1 * over2
 
-    def read(self, state: Intensities, count: int = 1) -> tuple[Components, Any]:
-        del count
+    def read(self, state: Intensities, _: int = 1) -> tuple[Components, Any]:
         total, over = in_all(state)
         stored = (total >= self.least) & (over >= self.least)
         return (self.xp.where(stored, total / over, 0.0), 0.0, 0.0, 0.0), 0
@@ -123,17 +122,13 @@ class BoundsCarrier(Carrier):
         super().__init__(xp)
         self.slack = slack
 
-    def emit(self, stokes: Components, count: int = 1) -> Bounded:
-        del count
+    def emit(self, stokes: Components, _: int = 1) -> Bounded:
         s0, *rest = stokes
         dop = self._ratio(rest, s0)
         excess = self.xp.maximum(dop - 1.0, 0.0)
         return Bounded(s0, 1.0, 1.0, Boosts(self.xp.minimum(dop, 1.0)), excess)
 
-    def act(
-        self, structure: Structure, numbers: Numbers, state: Bounded, count: int = 1
-    ) -> Bounded:
-        del count
+    def act(self, structure: Structure, numbers: Numbers, state: Bounded, _: int = 1) -> Bounded:
         rows = structure.rows(self.xp, numbers)
         mean, *first = rows[0]
         diattenuation = self._share(first, mean)
@@ -166,8 +161,7 @@ class BoundsCarrier(Carrier):
         excess = xp.maximum(first.excess, second.excess)
         return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)), excess)
 
-    def read(self, state: Bounded, count: int = 1) -> tuple[Components, Any]:
-        del count
+    def read(self, state: Bounded, _: int = 1) -> tuple[Components, Any]:
         least, most = ratio_bounds(self.xp, state.boosts)
         # Light (1, d, 0, 0) is d times (1, 1, 0, 0) less d - 1 of unpolarised light.
         slack = self.slack + 2.0 * state.excess

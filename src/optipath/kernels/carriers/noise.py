@@ -86,10 +86,8 @@ class NoiseCarrier(Carrier):
         half = 0.5 * share * self._intensity(brightest)
         return {k: Noisy(s, *self._moved((half, half), brightest, s)) for k, s in result.items()}
 
-    def read(self, state: Noisy, count: int = 4) -> tuple[Components, Any]:
-        del count
-        _, exponent = state.light
-        return (self._intensity(state.light), state.x + state.y, 0.0, 0.0), exponent
+    def read(self, state: Noisy, _: int = 4) -> tuple[Components, Any]:
+        return (self._intensity(state.light), state.x + state.y, 0.0, 0.0), state.light[1]
 
     def _rounded(self, light: ScaledState) -> tuple[Any, Any]:
         x, y = along_axes(self.xp, light[0])

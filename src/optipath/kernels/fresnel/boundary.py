@@ -23,6 +23,22 @@ LOST = -1.0
 """What n^2 - y^2 is taken for where all has been reflected before: all is reflected here, too."""
 
 
+class Slant(NamedTuple):
+    """How r_p differs from r_s: by z and g1 g2, all of it divided by n1."""
+
+    z: Any
+    re: Any
+    im: Any
+    z2: Any
+    g2: Any
+    q: Any
+
+    @property
+    def less(self) -> Any:
+        """|z - c g|^2, which over q is |r_p / r_s|^2."""
+        return (self.z - self.re) * (self.z - self.re) + self.im * self.im
+
+
 class Boundary(NamedTuple):
     """What reflection and transmission are made of.
 
@@ -45,6 +61,12 @@ class Boundary(NamedTuple):
     def squares(self) -> tuple[Any, Any]:
         """p^2 + |g|^2 and 2 Re(p conj g)."""
         return self.p * self.p + self.squared, 2.0 * self.p * self.a
+
+    def slant(self, _: Callable[..., Any]) -> Slant:
+        """Return how the two polarisations differ, with c = p / n1 in place of g1 / n1."""
+        z, re, im = self.n1 * (self.s * self.s), self.c * self.a, self.c * self.b
+        z2, g2 = z * z, self.c * self.c * self.squared
+        return Slant(z, re, im, z2, g2, (z2 + g2) + 2.0 * z * re)
 
 
 def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
@@ -209,6 +231,15 @@ class InhomogeneousBoundary(NamedTuple):
         even = (self.p * self.p + self.fades * self.fades) + self.squared
         return even, 2.0 * self.p * self.a + 2.0 * self.fades * self.b
 
+    def slant(self, where: Callable[..., Any]) -> Slant:
+        """Return how the two polarisations differ."""
+        z = self.n1 * (self.s * self.s)
+        re, im = self.c * self.a - self.e * self.b, self.c * self.b + self.e * self.a
+        z2, g2 = z * z, (self.c * self.c + self.e * self.e) * self.squared
+        # Where it cancels, next to a surface plasmon, it is a sum of squares.
+        q = where(re < 0.0, (z + re) * (z + re) + im * im, (z2 + g2) + 2.0 * z * re)
+        return Slant(z, re, im, z2, g2, q)
+
     def from_behind(self, where: Callable[..., Any]) -> InhomogeneousBoundary:
         """Return the same boundary as light from the other side meets it."""
         n = where(self.n > 0.0, self.n, 1.0)
@@ -313,9 +344,8 @@ def phase_index(xp: Primitives) -> KernelFunction:
     return index
 
 
-def real_index(xp: Primitives) -> KernelFunction:
+def real_index(_: Primitives) -> KernelFunction:
     """Make ``(n1, cos, sin) -> (n1,)``: the same where nothing absorbs."""
-    del xp
     return lambda n1, *_: (n1,)
 
 

@@ -89,16 +89,12 @@ class Stack:
             of_behind = False
         else:
             back = _made(xp, self.from_behind, arguments)
-        others: tuple[Any, ...] = (None, None, None, None)
+        beside = interference_behind = None
         if of_front or of_behind:
-            others = xp.apart(interference(xp))(*front, *behind, *pile.angle)
-        return Face(
-            reflected,
-            passed,
-            back,
-            others[:2] if of_front and place else None,
-            others[2:] if of_behind else None,
-        )
+            *before, Is, Ip = xp.apart(interference(xp))(*front, *behind, *pile.angle)
+            beside = tuple(before) if of_front and place else None
+            interference_behind = (Is, Ip) if of_behind else None
+        return Face(reflected, passed, back, beside, interference_behind)
 
     def _way(self, xp: Primitives, pile: _Pile, place: int) -> tuple[Any, Any] | None:
         """Return what is left behind a layer and what is not; nothing where it is lossless."""
@@ -263,19 +259,14 @@ class Rounds:
         if not self.ways:
             return []
         results = []
-        for layer, (way, lights) in enumerate(zip(self.ways, self._lights(), strict=True)):
-            sides = self.faces[layer + 1].sides[0], self.faces[layer].sides[1]
-            results.append(
-                0.0
-                if way is None
-                else reduce(
-                    add,
-                    (
-                        (way[1] + way[0] * side.stays[0]) * light[0]
-                        for side, light in zip(sides, lights, strict=True)
-                    ),
-                )
-            )
+        for layer, (way, (down, up)) in enumerate(zip(self.ways, self._lights(), strict=True)):
+            stays: Any = 0.0
+            if way is not None:
+                left, absorbed = way
+                behind, before = self.faces[layer + 1].sides[0], self.faces[layer].sides[1]
+                stays = (absorbed + left * behind.stays[0]) * down[0]
+                stays = stays + (absorbed + left * before.stays[0]) * up[0]
+            results.append(stays)
         return results
 
     def _lights(self) -> list[tuple[list[Any], list[Any]]]:

@@ -8,7 +8,7 @@ optical calculations", arXiv:1603.02720).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.fresnel.boundary import (
     Across,
@@ -25,25 +25,27 @@ from optipath.kernels.vectors import hypotenuse
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from optipath.kernels.fresnel.boundary import Slant
     from optipath.kernels.primitives import KernelFunction, Primitives
 
+
+AnyBoundary: TypeAlias = Boundary | InhomogeneousBoundary
 
 _LOST, _LEAST, _EQUAL = 2.0**-52, 2.0**-970, 2.0**-120
 """What the first takes to 0 has lost digits; below the second, the inverse is too large; squares of
 media that differ by less than the third, with an inverse in float32, are equal."""
 
 
-def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
-    """Make ``Boundary -> (Fs, Fp, B, C, S)``.
+def _reflected(xp: Primitives) -> Callable[[AnyBoundary], tuple[Any, ...]]:
+    """Make ``Boundary -> (Fs, Fp, B, C, S)``; out of an absorbing medium, the same from behind.
 
-    With p = n1 cos, z = (n1 sin)^2, D = m2^2 - n1^2 and g = a + ib = sqrt(m2^2 - z):
-    r_s = -D / (p + g)^2 and r_p / r_s = (z - p g) / (z + p g), which are the
-    Fresnel equations (Born & Wolf, Principles of Optics, sec. 1.5 and 14.2) freed
-    of differences between nearly equal numbers. Total reflection gives
-    Fs = Fp = 1 and B = 0 exactly.
+    With g1 and g2 along the normal, z = (n1 sin)^2 and D = m2^2 - m1^2: r_s = -D / (g1 + g2)^2
+    and r_p / r_s = (z - g1 g2) / (z + g1 g2), which are the Fresnel equations (Born & Wolf,
+    Principles of Optics, sec. 1.5 and 14.2) freed of differences between nearly equal numbers.
+    Total reflection gives Fs = Fp = 1 and B = 0 exactly.
     """
     where, first = xp.where, _first(xp)
-    return lambda at: in_plane(where, first(at)[0], slant(at), at.c)
+    return lambda at: in_plane(where, first(at)[0], at.slant(where), at.c)
 
 
 stable_reflection = Across(absorbing_boundary, _reflected)
@@ -97,10 +99,10 @@ def _lossless(where: Callable[..., Any], Ts: Any, at: Boundary, re: Any) -> Any:
     return Ts * at.n / where(re > 0.0, re, 1.0)
 
 
-def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
+def _first(xp: Primitives) -> Callable[[AnyBoundary], tuple[Any, Any]]:
     where = xp.where
 
-    def first(at: Boundary) -> tuple[Any, Any]:
+    def first(at: AnyBoundary) -> tuple[Any, Any]:
         """Return Fs and Ts."""
         _, Ts, small = through_and_back(where, *at.squares, at.D, at.v)
         # The smaller of the two carries the digits of both.
@@ -126,33 +128,10 @@ def through_and_back(
     return P, where(vanishes, 1.0, mixed * twice), small - missing * twice * small
 
 
-def sum_squared(at: Boundary | InhomogeneousBoundary) -> Any:
+def sum_squared(at: AnyBoundary) -> Any:
     """Return P = |g1 + g2|^2."""
     even, mixed = at.squares
     return even + mixed
-
-
-class Slant(NamedTuple):
-    """How r_p differs from r_s: by z and p g, all of it divided by n1."""
-
-    z: Any
-    ca: Any
-    cb: Any
-    z2: Any
-    g2: Any
-    q: Any
-
-    @property
-    def less(self) -> Any:
-        """|z - c g|^2, which over q is |r_p / r_s|^2."""
-        return (self.z - self.ca) * (self.z - self.ca) + self.cb * self.cb
-
-
-def slant(at: Boundary) -> Slant:
-    """Return how the two polarisations differ at a boundary."""
-    z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
-    z2, g2 = z * z, at.c * at.c * at.squared
-    return Slant(z, ca, cb, z2, g2, (z2 + g2) + 2.0 * z * ca)
 
 
 def is_there(where: Callable[..., Any], q: Any) -> tuple[Any, Any]:
@@ -170,7 +149,7 @@ def in_plane(
     there, q = is_there(where, along.q)
     f = Fs / q
     parted = 2.0 * f * along.z
-    B, S = parted * along.ca, parted * along.cb
+    B, S = parted * along.re, parted * along.im
     # The difference is the better one unless it cancels, and exact in total reflection.
     Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
     # Near the normal C is -A, and a little of what is small there.
@@ -185,46 +164,14 @@ def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
     def transmitted(at: Boundary) -> tuple[Any, ...]:
         """Return (Ts, Tp, B), (z + p g) / n1, |g|^2 + z, and |z + p g|^2 / n1^2."""
         Fs, Ts = first(at)
-        along = slant(at)
+        along = at.slant(where)
         _, q = is_there(where, along.q)
         behind = at.squared + at.n1 * along.z
         B = 0.0 - 2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
         powers = Ts, Ts * (behind / q), B
-        return powers, (along.z + along.ca, along.cb), behind, q
+        return powers, (along.z + along.re, along.im), behind, q
 
     return transmitted
-
-
-def _reflected_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
-    """Make ``InhomogeneousBoundary -> (Fs, Fp, B, C, S)``.
-
-    With g1 and g2 along the normal, y along the face and D = m2^2 - m1^2: r_s = -D /
-    (g1 + g2)^2 and r_p / r_s = (y^2 - g1 g2) / (y^2 + g1 g2), as in `stable_reflection`, where
-    g1 is real. From behind, all five numbers are the same.
-    """
-    where = xp.where
-
-    def reflect(at: InhomogeneousBoundary) -> tuple[Any, ...]:
-        _, entering, small = _powers(where, at)
-        Fs = where(entering < 0.6, 1.0 - entering, small)
-        return in_plane(where, Fs, slant_of(where, at), at.c)
-
-    return reflect
-
-
-def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any, Any]:
-    """Return P = |g1 + g2|^2, 1 in place of 0, 1 - Fs, and Fs where it is small."""
-    return through_and_back(where, *at.squares, at.D, at.v)
-
-
-def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
-    """Return how the polarisations differ, with g1 g2 / n1 in place of c g."""
-    z = at.n1 * (at.s * at.s)
-    re, im = at.c * at.a - at.e * at.b, at.c * at.b + at.e * at.a
-    z2, g2 = z * z, (at.c * at.c + at.e * at.e) * at.squared
-    # Where it cancels, next to a surface plasmon, it is a sum of squares.
-    q = where(re < 0.0, (z + re) * (z + re) + im * im, (z2 + g2) + 2.0 * z * re)
-    return Slant(z, re, im, z2, g2, q)
 
 
 def _transmitted_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
@@ -238,14 +185,14 @@ def _transmitted_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tup
     where, sqrt, length = xp.where, xp.sqrt, hypotenuse(xp)
 
     def transmitted(at: InhomogeneousBoundary) -> tuple[Any, ...]:
-        P, entering, small = _powers(where, at)
+        P, entering, small = through_and_back(where, *at.squares, at.D, at.v)
         Fs = where(entering < 0.6, 1.0 - entering, small)
         # Where no wave arrives, none is let through.
         arrives = at.c > 0.0
         more = where(arrives, at.e * (at.e / where(arrives, at.c, 1.0)), 0.0)
         direct = (entering < 0.6) | (at.fades > 0.0)
         Ts = where(direct, 4.0 * (at.p + at.n1 * more) * at.a * (1.0 / P), 1.0 - small)
-        along = slant_of(where, at)
+        along = at.slant(where)
         _, q = is_there(where, along.q)
         behind = at.squared + at.n1 * along.z
         kappa2 = at.kappa * at.kappa
@@ -257,7 +204,7 @@ def _transmitted_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tup
         share = Ts * sqrt(behind / q) / sqrt(q) * sqrt((1.0 + kappa2) / before)
         size = length(at.n, at.k)
         n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
-        re, im = along.z + along.ca, along.cb
+        re, im = along.z + along.re, along.im
         C = share * (re * n + im * k + at.kappa * (im * n - re * k))
         of_second, of_first = phases_through(where, at, n, k)
         S = share * at.n1 * (at.s * at.s) * of_second + share * (at.s * at.s) * size * of_first
@@ -269,7 +216,7 @@ def _transmitted_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tup
     return transmitted
 
 
-inhomogeneous_reflection = Across(inhomogeneous_boundary, _reflected_within)
+inhomogeneous_reflection = Across(inhomogeneous_boundary, _reflected)
 inhomogeneous_transmission = Across(inhomogeneous_boundary, _transmitted_within)
 transmission_from_behind = Across(boundary_from_behind, _transmitted_within)
 """Kernels of ``(n1, k1, n, k, [n0,] cos, sin)``."""
@@ -319,7 +266,7 @@ def _shares(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, Any]
     where = xp.where
 
     def shares(at: InhomogeneousBoundary) -> tuple[Any, Any]:
-        P, q, n2 = sum_squared(at), slant_of(where, at).q, at.n1 * at.n1
+        P, q, n2 = sum_squared(at), at.slant(where).q, at.n1 * at.n1
         z, G1, G2 = n2 * (at.s * at.s), at.p * at.p + at.fades * at.fades, at.squared
         # Where no wave arrives there is no light.
         there = (at.p > 0.0) & (P > 0.0) & (q * n2 > 0.0)

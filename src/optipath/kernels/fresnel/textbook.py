@@ -9,7 +9,7 @@ from optipath.kernels.fresnel.boundary import (
     boundary_from_behind,
     inhomogeneous_boundary,
 )
-from optipath.kernels.fresnel.stable import phases_through, slant_of, sum_squared
+from optipath.kernels.fresnel.stable import phases_through, sum_squared
 from optipath.kernels.vectors import complex_root, hypotenuse
 
 if TYPE_CHECKING:
@@ -122,12 +122,11 @@ def _let_through(xp: Primitives, Ts: Any, Tp: Any, positive: Any, both: Complex)
     return Ts, Tp, 0.5 * (Ts - Tp), share * re, share * im
 
 
-def plain_amplitudes(xp: Primitives) -> KernelFunction:
+def plain_amplitudes(_: Primitives) -> KernelFunction:
     """Make ``(Re rs, Im rs, Re rp, Im rp) -> (Fs, Fp, B, C, S)``.
 
     B = Re((rs - rp) conj(rs + rp)) / 2, where Fs - Fp would lose digits.
     """
-    del xp
 
     def reflect(a: Any, b: Any, c: Any, d: Any) -> tuple[Any, ...]:
         rs, rp = (a, b), (c, d)
@@ -303,12 +302,12 @@ def _along_p(xp: Primitives) -> Callable[..., tuple[Complex, Complex]]:
 
     def along_p(at: InhomogeneousBoundary, rs: Complex, ts: Complex) -> tuple[Complex, Complex]:
         """Return r_p and t_p."""
-        along = slant_of(where, at)
-        q = length(xp.absolute(along.z + along.ca), along.cb)
+        along = at.slant(where)
+        q = length(xp.absolute(along.z + along.re), along.im)
         there = q > 0.0
         q = where(there, q, 1.0)
-        u, w = (along.z + along.ca) / q, along.cb / q
-        Z = (along.z - along.ca) / q * u - w * w, -2.0 * (along.z / q) * w
+        u, w = (along.z + along.re) / q, along.im / q
+        Z = (along.z - along.re) / q * u - w * w, -2.0 * (along.z / q) * w
         # It vanishes next to a medium of index 0 only: next to the normal, or at grazing incidence.
         sign = where(at.c > at.s, -1.0, 1.0)
         Z = where(there, Z[0], sign), where(there, Z[1], 0.0)

@@ -18,7 +18,7 @@ from optipath.kernels.fresnel.boundary import (
     inhomogeneous_boundary,
     lossless_boundary,
 )
-from optipath.kernels.fresnel.stable import slant, slant_of, sum_squared
+from optipath.kernels.fresnel.stable import sum_squared
 from optipath.kernels.vertex_chain import Event
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def inhomogeneous_powers(xp: Primitives) -> KernelFunction:
 
     def powers(*argument: Any) -> tuple[Any, ...]:
         at = boundary(*argument)
-        P, along = sum_squared(at), slant_of(where, at)
+        P, along = sum_squared(at), at.slant(where)
         parted = at.D * at.D + at.v * at.v
         real = _of_refracted(xp, argument[4:], at.p, parted, P * P)
         # Out of a medium that absorbs, it may be more than all.
@@ -95,7 +95,7 @@ def _of_refracted(xp: Primitives, angle: tuple[Any, ...], p: Any, parted: Any, m
 
 
 def _powers(xp: Primitives, angle: tuple[Any, ...], at: Boundary) -> tuple[Any, ...]:
-    P, along = sum_squared(at), slant(at)
+    P, along = sum_squared(at), at.slant(xp.where)
     parted = _of_refracted(xp, angle, at.p, at.D * at.D + at.v * at.v, P * P)
     return parted * along.q, parted * along.less, P * P * along.q
 
