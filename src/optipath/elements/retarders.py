@@ -121,27 +121,15 @@ class Waveplate(Element, kind="waveplate"):
     azimuth: Angle = 0.0
 
     @classmethod
-    def quarter(
-        cls,
-        at: Any,
-        crystal: str | Crystal | Parameter | float = "quartz",
-        *,
-        order: int = 0,
-        angle: Any = 0.0,
-        azimuth: Any = 0.0,
-    ) -> Self:
+    def quarter(cls, at: Any, crystal: Any = "quartz", **others: Any) -> Self:
         """Return a quarter-wave plate by the wavelength at which it is one.
 
         Parameters
         ----------
-        at : float or str
-            The wavelength, in metres, or ``"550 nm"``.
-        crystal : str, Crystal, Parameter or float, optional
-            What it is made of: a name of `Crystal.named`, or the birefringence.
-        order : int, optional
-            How many whole waves it retards by besides.
-        angle, azimuth : float, array_like or Parameter, optional
-            Of the fast axis at that wavelength, and of the plate's frame.
+        at, crystal
+            As `retarding` takes them.
+        **others : int, float, array_like or Parameter
+            ``order``, ``angle`` and ``azimuth``, as it takes them.
 
         Returns
         -------
@@ -153,30 +141,22 @@ class Waveplate(Element, kind="waveplate"):
         >>> round(Waveplate.quarter("550 nm", order=10).thickness * 1e6, 1)
         615.5
         """
-        return cls.retarding(math.pi / 2, at, crystal, order=order, angle=angle, azimuth=azimuth)
+        return cls.retarding(math.pi / 2, at, crystal, **others)
 
     @classmethod
-    def half(
-        cls,
-        at: Any,
-        crystal: str | Crystal | Parameter | float = "quartz",
-        *,
-        order: int = 0,
-        angle: Any = 0.0,
-        azimuth: Any = 0.0,
-    ) -> Self:
+    def half(cls, at: Any, crystal: Any = "quartz", **others: Any) -> Self:
         """Return a half-wave plate by the wavelength at which it is one.
 
         Parameters
         ----------
-        at, crystal, order, angle, azimuth
+        at, crystal, **others
             As in `quarter`.
 
         Returns
         -------
         Waveplate
         """
-        return cls.retarding(math.pi, at, crystal, order=order, angle=angle, azimuth=azimuth)
+        return cls.retarding(math.pi, at, crystal, **others)
 
     @classmethod
     def retarding(
@@ -197,8 +177,14 @@ class Waveplate(Element, kind="waveplate"):
         ----------
         retardance : float or str
             Beyond whole waves, in radians, not negative; 0 with an order of 1 is a full-wave plate.
-        at, crystal, order, angle, azimuth
-            As in `quarter`.
+        at : float or str
+            The wavelength, in metres, or ``"550 nm"``.
+        crystal : str, Crystal, Parameter or float, optional
+            What it is made of: a name of `Crystal.named`, or the birefringence.
+        order : int, optional
+            How many whole waves it retards by besides.
+        angle, azimuth : float, array_like or Parameter, optional
+            Of the fast axis at that wavelength, and of the plate's frame.
 
         Returns
         -------

@@ -71,14 +71,6 @@ class PlaceInChain:
         """The axes of the points of one chain."""
         return max(self.count, 1) + 2, 3
 
-    def points_around(self) -> Coordinates:
-        """Return the vertex between its neighbours."""
-        return self._points(self.at - 1)
-
-    def points_from_start(self) -> Coordinates:
-        """Return all points up to the one behind the vertex."""
-        return self._points(0)
-
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the numbers, a sentence each."""
         result, name = [], self.counted_by
@@ -100,8 +92,9 @@ class PlaceInChain:
         """The number; 1 or the last where it is no place, which is told as a fault."""
         return min(self.number if is_whole(self.number) else 1, max(self.count, 1))
 
-    def _points(self, first: int) -> Coordinates:
-        last = self.at + 1
+    def points(self, *, around: bool = False) -> Coordinates:
+        """Return the vertex between its neighbours; or all points up to the one behind it."""
+        first, last = self.at - 1 if around else 0, self.at + 1
         if isinstance(self.vertices, VerticesByAngles):
             angles = [angle for _, angle, _ in self.vertices.parts("")]
             operands = tuple(Operand(angle, part) for angle in angles for part in ("cos", "sin"))

@@ -90,7 +90,7 @@ class ChainVertex(MediaOfBoundary, Element):
     @property
     def _points(self) -> Coordinates:
         """The points up to the one behind the vertex."""
-        return self.in_chain.points_from_start()
+        return self.in_chain.points()
 
     @property
     def front(self) -> Any:
@@ -147,7 +147,7 @@ class ChainVertex(MediaOfBoundary, Element):
         of_angles = isinstance(self.vertices, VerticesByAngles)
         if self.bad == "mask" or self.front is FOLLOWS or of_angles:
             return ()
-        points = self.in_chain.points_around().arguments
+        points = self.in_chain.points(around=True).arguments
         return (EventFits((*map(operand_of, event_and_media), *points), owner),)
 
     def _place_faults(self, owner: str) -> list[str]:
@@ -295,7 +295,7 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the reflection from ``in`` to ``reflected``."""
         index = numbers_of(self.index, self.domains()["index"])
-        cos_sin = self.in_chain.points_around().passed_to(INCIDENCE).results(2)
+        cos_sin = self.in_chain.points(around=True).passed_to(INCIDENCE).results(2)
         operation = Operation(REFLECTION, (self.front, *index, *cos_sin))
         return (Coupling("in", "reflected", (operation,), reflects=True),)
 
@@ -342,7 +342,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the refraction from ``in`` to ``transmitted``."""
-        points = self.in_chain.points_around()
+        points = self.in_chain.points(around=True)
         rarer, denser, *cos_sin = points.passed_to(REFRACTION, self.front, self._behind).results(4)
         operation = Operation(TRANSMISSION_AT_VERTEX, (rarer, denser, 0.0, *cos_sin))
         return (Coupling("in", "transmitted", (operation,)),)

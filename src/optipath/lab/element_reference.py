@@ -84,7 +84,7 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
 
 @matrix_of.register
 def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
-    points = element.in_chain.points_around()
+    points = element.in_chain.points(around=True)
     cos, sin = points.passed_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     m = read.index(element.index) / read.index(element.outside).real
     return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
@@ -92,7 +92,7 @@ def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
 
 @matrix_of.register
 def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
-    points = element.in_chain.points_around()
+    points = element.in_chain.points(around=True)
     half, across = points.passed_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     c, s = cos_sin(read.move(2 * mpmath.atan2(half, across), 1))
     before, behind = read.index(element.outside).real, read.index(element.index).real

@@ -186,10 +186,8 @@ class Material:
         *,
         k: float | None = None,
         unit: str = "",
-        interpolation: str = "linear",
-        extrapolate: str = "",
         name: str = "",
-        wavelength: Any = None,
+        **others: Any,
     ) -> Self:
         """Return a material of a table in a file, with a line for each wavelength.
 
@@ -203,8 +201,10 @@ class Material:
             Of a file without a column k.
         unit : str, optional
             Of the wavelengths, where the first line has none.
-        interpolation, extrapolate, name, wavelength
-            As `tabulated` takes them; the name is that of the file by default.
+        name : str, optional
+            What sentences call it; the name of the file by default.
+        **others
+            All that `tabulated` takes besides.
 
         Returns
         -------
@@ -213,15 +213,9 @@ class Material:
         names = ["n", "k"] if k is None else ["n"]
         cures = {"k": "; or give k=0.0 where nothing absorbs"}
         table = read_columns(path, names, unit=unit, cures=cures)
+        given = {"k": k, **table.columns, "name": name or table.title, **others}
         with told_as(ValueFault, str(path)):
-            return cls.tabulated(
-                table.wavelengths,
-                **{"k": k, **table.columns},
-                interpolation=interpolation,
-                extrapolate=extrapolate,
-                name=name or table.title,
-                wavelength=wavelength,
-            )
+            return cls.tabulated(table.wavelengths, **given)
 
     @classmethod
     def sellmeier(

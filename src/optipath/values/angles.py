@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import warnings
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from optipath.values.arrays import (
     joint_shape,
     numbers_for,
     refuse_too_large,
-    same,
+    same_fields,
 )
 from optipath.values.jax_values import is_jax, is_traced, namespace
 from optipath.values.precision import as_doubles, doubles, real_number, rounding_of
@@ -33,6 +34,7 @@ _ANGLE = 8
 """How many bytes an angle has."""
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class CosSin(Unchanging):
     """An angle by its cosine and sine, as scenes in space have it.
 
@@ -58,21 +60,17 @@ class CosSin(Unchanging):
     True
     """
 
-    __slots__ = ("cos", "sin")
-
     cos: Any
-    sin: Any
+    sin: Any = None
 
-    def __init__(self, cos: Any, sin: Any = None) -> None:
-        if sin is None:
-            raise ParameterError(
-                f"CosSin takes a cosine and a sine, not {shown(cos)} alone; give an angle itself"
-            )
-        cos, sin = _numbers("cos", cos), _numbers("sin", sin)
+    def __post_init__(self) -> None:
+        if self.sin is None:
+            what = f"CosSin takes a cosine and a sine, not {shown(self.cos)} alone"
+            raise ParameterError(f"{what}; give an angle itself")
+        cos, sin = _numbers("cos", self.cos), _numbers("sin", self.sin)
         ParameterError.raise_for(broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}))
         refuse_too_large(joint_shape(np.shape(cos), np.shape(sin)), _ANGLE, error=ParameterError)
-        object.__setattr__(self, "cos", within_right_angle(cos, sin))
-        object.__setattr__(self, "sin", sin)
+        vars(self).update(cos=within_right_angle(cos, sin), sin=sin)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -107,15 +105,8 @@ class CosSin(Unchanging):
                 f"cosine and sine of {what} belong to no angle; divide both by hypot(cos, sin)"
             )
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, CosSin):
-            return NotImplemented
-        return same(self.cos, other.cos) and same(self.sin, other.sin)
-
+    __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return CosSin, (self.cos, self.sin)
 
     def __repr__(self) -> str:
         return f"CosSin({self.cos!r}, {self.sin!r})"

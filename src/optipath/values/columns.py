@@ -65,11 +65,6 @@ class TextColumn(NamedTuple):
         texts = [f"{cell} {self.unit}" if _is_plain(cell) else cell for cell in self.cells]
         return tuple(texts) if self.unit else self.cells
 
-    @property
-    def lacks_units(self) -> bool:
-        """Whether a number of it has no unit."""
-        return not self.unit and any(map(_is_plain, self.cells))
-
 
 def _is_plain(cell: str) -> bool:
     return bool(_NUMBER.match(cell)) and not unit_of(cell)
@@ -112,7 +107,8 @@ def column_for(parameter: Parameter, path: str) -> list[str]:
 
 def missing_unit(column: TextColumn, parameter: Parameter) -> str:
     """Return what is wrong with a column whose numbers need a unit and have none; else nothing."""
-    if not (dimension := dimension_of(parameter.unit)) or not column.lacks_units:
+    dimension = dimension_of(parameter.unit)
+    if not dimension or column.unit or not any(map(_is_plain, column.cells)):
         return ""
     return (
         f"column '{column.name}' has no unit; write its name as "

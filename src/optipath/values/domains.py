@@ -122,11 +122,6 @@ class Domain:
         return read_only(value, (self.minimum, self.maximum))
 
     @property
-    def takes_large_angles(self) -> bool:
-        """Whether angles beyond a whole turn are allowed."""
-        return self.dimension == "angle" and max(-self.minimum, self.maximum) > TURN
-
-    @property
     def interval(self) -> tuple[float, float]:
         """The limits of real numbers; wide open where they are limited in other ways too."""
         return self.minimum, self.maximum

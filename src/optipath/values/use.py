@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, ValueFault, collecting, having
-from optipath.values.angles import warn_of_degrees
+from optipath.values.angles import TURN, warn_of_degrees
 from optipath.values.arrays import as_argument
 from optipath.values.curve_value import CurveValue, check_computed, takes_0_alone
 from optipath.values.domains import Domain, Refused, in_unit_of
@@ -220,7 +220,7 @@ def make_sound(
 def stored_value(owner: str, value: Any, domain: Domain) -> Any:
     """Return a value as it is kept: numbers for texts, read-only arrays, parameters with a unit."""
     warns = domain.dimension == "angle" and not _is_checked_later.get()
-    looks = warns and domain.takes_large_angles
+    looks = warns and max(-domain.minimum, domain.maximum) > TURN
     if not isinstance(value, Parameter):
         if looks:
             warn_of_degrees(owner, value)
