@@ -39,15 +39,8 @@ MICROMETRES = 1e6
 """How many there are in a metre: the unit of published coefficients."""
 
 
-class _AboveZero(Domain):
-    """Real numbers that are not 0, either."""
-
-    def described(self) -> str:
-        return f"a real {self.name} above 0"
-
-
 REAL = Domain("coefficient")
-POSITIVE = _AboveZero("coefficient", minimum=5e-324)
+POSITIVE = Domain("coefficient", minimum=5e-324)
 NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
 
 Coefficient: TypeAlias = tuple[str, Any, Domain]

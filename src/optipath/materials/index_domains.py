@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
-from optipath.materials.material import LEAST, K, Material, RealPart, index_of
+from optipath.materials.material import K, Material, RealPart, index_of
 from optipath.values.arrays import read_only
-from optipath.values.domains import Domain, in_unit_of
+from optipath.values.domains import LEAST, Domain, in_unit_of
 from optipath.values.jax_values import namespace
 from optipath.values.precision import held, real_number
 
@@ -73,16 +73,15 @@ by Snell's law; in files ``"follows"``."""
 class NoAbsorption(Domain):
     """Extinction coefficients that are 0.
 
-    >>> NoAbsorption("k", why=", since light goes on in there").described()
+    >>> NoAbsorption("k", besides=", since light goes on in there").described()
     '0, since light goes on in there: take the medium without its k'
     """
 
     minimum: float = 0.0
     maximum: float = 0.0
-    why: str = ""
 
     def described(self) -> str:
-        return f"0{self.why}: take the medium without its k"
+        return f"0{self.besides}: take the medium without its k"
 
 
 class _IndexOrMaterial(Domain):
@@ -169,20 +168,15 @@ class OutsideDomain(_IndexOrMaterial):
     """Positive real numbers: indices of media that do not absorb."""
 
     minimum: float = LEAST  # Beyond, waves across a layer have squares that vanish.
-    why: str = ", since light comes from there"
+    besides: str = ", since light comes from there"
 
     @property
     def of_k(self) -> Domain:
         """What k may be."""
-        return NoAbsorption("extinction coefficient", why=self.why)
+        return NoAbsorption("extinction coefficient", besides=self.besides)
 
     def domains_of(self, material: Material) -> tuple[Domain, Domain]:
         return self, self.of_k
-
-    def described(self) -> str:
-        limited = math.isfinite(self.maximum)
-        which = f"within {self.minimum:g} .. {self.maximum:g}" if limited else "above 0"
-        return f"a real index of refraction {which}{self.why}"
 
 
 class FollowedIndex(Followed, IndexDomain):
@@ -226,10 +220,11 @@ OPTIONAL_LIT_INDEX = replace(LIT_INDEX, optional=True)
 FOLLOWED_LIT_INDEX = FollowedIndex(**vars(LIT_INDEX))
 LIT_BEHIND = LitBehind(
     "index of refraction",
-    why=", since light comes from there too (by port 'back'), and let a Medium absorb between",
+    besides=", since light comes from there too (by port 'back'), and let a Medium absorb between",
 )
 CLEAR = OutsideDomain(
-    "index of refraction", why=", since light goes on in there, and let a Medium absorb on the way"
+    "index of refraction",
+    besides=", since light goes on in there, and let a Medium absorb on the way",
 )
 
 
@@ -240,7 +235,7 @@ MOST_MEDIA = 1000
 def inner_domain(missing: str) -> OutsideDomain:
     """Return what the layers of a stack may be that is not given something."""
     why = f" (for a layer that absorbs, give the stack {missing}, too)"
-    return OutsideDomain("index of refraction", minimum=1e-60, maximum=1e60, why=why)
+    return OutsideDomain("index of refraction", minimum=1e-60, maximum=1e60, besides=why)
 
 
 INNER = inner_domain("the lengths (one for each layer) and the wavelength")

@@ -23,7 +23,7 @@ from optipath.values.arrays import as_argument, broadcast_fault, same, same_fiel
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve, span_text
 from optipath.values.curve_value import CurveValue, curve_at
-from optipath.values.domains import Domain
+from optipath.values.domains import LEAST, Domain
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter, label_of
 from optipath.values.units import parse_quantity
@@ -54,10 +54,6 @@ class RealPart(_Part):
 
     takes_materials = True
 
-    def described(self) -> str:
-        above_0 = self.minimum == LEAST
-        return f"a real {self.name} above 0 where k is 0" if above_0 else super().described()
-
 
 def _number(value: Any) -> Any:
     """Return a known number, or an array of them; None for anything else."""
@@ -84,9 +80,7 @@ _GOLD = ("Material(0.18, 3.4)", "{ n = 0.18, k = 3.4 }")
 
 N = RealPart("index of refraction", minimum=0.0)
 K = _Part("extinction coefficient", minimum=0.0)
-LEAST = float(np.finfo(float).tiny)
-"""The least n of a medium that does not absorb; where n is 0, k is above 0."""
-N_OF_CLEAR = RealPart("index of refraction", minimum=LEAST)
+N_OF_CLEAR = RealPart("index of refraction", minimum=LEAST, besides=" where k is 0")
 PARTS = {"n": N, "k": K}
 
 

@@ -17,6 +17,9 @@ from optipath.values.parameters import Parameter
 from optipath.values.precision import ENDLESS, doubles, held, rounding_of
 from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
 
+LEAST = float(np.finfo(float).tiny)
+"""The least normal number: those above 0 that are less have too few digits."""
+
 
 @dataclass(frozen=True)
 class Domain:
@@ -36,6 +39,7 @@ class Domain:
     tail: tuple[int, ...] = ()
     own_unit: str = ""
     optional: bool = False  # Whether it may be None.
+    besides: str = ""  # What is said besides of which values are allowed.
 
     @property
     def unit(self) -> str:
@@ -133,11 +137,11 @@ class Domain:
     def described(self) -> str:
         """Say in words which values are allowed."""
         low, high = self._text(self.minimum), self._text(self.maximum)
-        if np.isinf(self.minimum) and np.isinf(self.maximum):
-            return f"a real {self.name}"
+        within = f" within {low} .. {high}"
         if np.isinf(self.maximum):
-            return f"a real {self.name} of {low} or more"
-        return f"a real {self.name} within {low} .. {high}"
+            within = f" of {low} or more" if np.isfinite(self.minimum) else ""
+            within = " above 0" if 0.0 < self.minimum <= LEAST else within
+        return f"a real {self.name}{within}{self.besides}"
 
     def _text(self, value: float) -> str:
         return format_quantity(value, self.unit)
@@ -239,12 +243,6 @@ class ExtinctionDomain(Domain):
 
     def are_numbers(self, numbers: Any) -> Any:
         return ~namespace(numbers).isnan(numbers)
-
-    def described(self) -> str:
-        return (
-            f"a real {self.name} of {self.minimum} or more, or infinity (a BeamSplitter does not "
-            f"polarise)"
-        )
 
 
 class WholeNumber(Domain):
