@@ -102,7 +102,7 @@ def test_no_light_becomes_more_polarised_than_wholly():
         (lambda: op.Waveplate.quarter("550 nm", order=-1), "order is -1; give how many whole wav"),
         (lambda: op.Waveplate.quarter("550 nm", order=0.5), "order is 0.5"),
         (lambda: op.Waveplate.quarter(550), "for nanometres write '550 nm'"),
-        (lambda: op.Waveplate.quarter(["500 nm", "600 nm"]), "give one number for one plate"),
+        (lambda: op.Waveplate.quarter(["500 nm", "600 nm"]), "give one number"),
         (lambda: op.Waveplate.quarter("550 nm", "quarz"), "did you mean 'quartz'"),
         (lambda: op.Waveplate.quarter("550 nm", 0), "a birefringence of 0 at 550 nm"),
         (lambda: op.Waveplate.quarter("550 nm", None), "give a name such as 'quartz'"),

@@ -142,7 +142,7 @@ REFUSED = [
     (lambda: cauchy([]), "a row of one coefficient or more, such as [1.0], not []"),
     (lambda: cauchy(np.array(1.5)), "must be a row of one coefficient or more"),
     (lambda: lorentz([]), "has no oscillators; give one or more"),
-    (lambda: cauchy([[1.5, 1.6]]), "give one number, or a Parameter for several"),
+    (lambda: cauchy([[1.5, 1.6]]), "give one number"),
     (lambda: drude(-9, 0.1), "plasma of a Drude-Lorentz model is -9"),
     (lambda: drude(9, 0.1, 1, [(1, 2, 0)]), "[0] damping of | is 0; give a real coefficient ab"),
     (lambda: drude(9, 0.1, 1.0, [(1, 2)]), "[(strength, energy, damping), "),

@@ -26,6 +26,7 @@ from optipath.kernels.catalog import (
     THIRD_WITH_DICHROISM,
 )
 from optipath.kernels.medium import LARGEST, LARGEST_DICHROISM
+from optipath.materials.material import K
 from optipath.materials.quantities import (
     WAVELENGTH,
     Absorption,
@@ -42,16 +43,12 @@ from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.arrays import check_broadcast, same
 from optipath.values.domains import Domain, Refused
 from optipath.values.operands import Operation, operand_of
-from optipath.values.parameters import Parameter
 from optipath.values.use import refuse
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from optipath.kernels.kernel import Kernel
-
-
-_EXTINCTION = Domain("extinction coefficient", minimum=0.0)
 
 
 class Medium(Element, kind="medium"):
@@ -177,14 +174,9 @@ class Medium(Element, kind="medium"):
         """
         faults: list[str] = []
         numbers = []
-        for name, value, domain in (("k", k, _EXTINCTION), ("wavelength", wavelength, WAVELENGTH)):
+        for name, value, domain in (("k", k, K), ("wavelength", wavelength, WAVELENGTH)):
             with collecting(faults, ValueFault):
-                if isinstance(value, Parameter):
-                    raise ValueFault(
-                        f"{name} is parameter '{value.name}', but absorption is computed from it "
-                        f"at once; give a value, or give Medium a parameter for its absorption"
-                    )
-                numbers.append(domain.check(name, domain.read(name, value)))
+                numbers.append(domain.check(name, value))
         ValueFault.raise_for(faults)
         check_broadcast({"k": np.shape(numbers[0]), "wavelength": np.shape(numbers[1])})
         with np.errstate(over="ignore"):

@@ -21,6 +21,7 @@ from optipath.kernels.catalog import (
 from optipath.materials.crystals import Crystal
 from optipath.materials.quantities import (
     ANGLE,
+    WAVELENGTH,
     Angle,
     Axis,
     Birefringence,
@@ -33,7 +34,7 @@ from optipath.materials.quantities import (
     Wavelength,
 )
 from optipath.values.curve_value import CurveValue
-from optipath.values.domains import Refused
+from optipath.values.domains import Refused, one_number
 from optipath.values.operands import Operation
 from optipath.values.precision import real_number
 from optipath.values.wavelength import Wavelength as WavelengthParameter
@@ -250,8 +251,8 @@ def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float
         raise ValueFault(
             f"order is {shown(order)}; give how many whole waves there are, 0, 1, 2, ..."
         )
-    phase = _one("retardance", ANGLE.check("retardance", retardance))
-    where = _one("at", WavelengthParameter("at").resolve(at).value)
+    phase = one_number("retardance", retardance, ANGLE)
+    where = one_number("at", WavelengthParameter("at").resolve(at).value, WAVELENGTH)
     if phase < 0.0:
         raise ValueFault(
             f"retardance is {phase:g}; give one of 0 or more, and turn the angle by 90 deg"
@@ -273,12 +274,6 @@ def plate_for(retardance: Any, at: Any, crystal: Any, order: Any) -> tuple[float
     thickness = (whole + phase / (2.0 * math.pi)) * where / abs(there)
     when = of_index.depends_on[0] if by_wavelength else WavelengthParameter()
     return thickness, -of_index if there < 0.0 else of_index, when
-
-
-def _one(name: str, number: Any) -> float:
-    if np.ndim(number):
-        raise ValueFault(f"{name} has shape {np.shape(number)}; give one number for one plate")
-    return float(number)
 
 
 class Rotator(Element, kind="rotator"):

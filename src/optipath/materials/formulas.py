@@ -21,7 +21,7 @@ from optipath.kernels.dispersion import (
 )
 from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.curve import Curve
-from optipath.values.domains import Domain
+from optipath.values.domains import Domain, one_number
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
@@ -65,7 +65,10 @@ class FormulaCurve(Curve):
         faults: list[str] = []
         for name, value, domain in self.arguments():
             with collecting(faults, ValueFault):
-                _check(f"{name} of {self.label}", value, domain)
+                if isinstance(value, Parameter):
+                    Use(f"{name} of {self.label}", value, domain).check()
+                elif not is_traced(value):
+                    one_number(f"{name} of {self.label}", value, domain)
         with collecting(faults, ValueFault):
             vars(self).update(span=read_span(f"span of {self.label}", self.span))
         ValueFault.raise_for(faults)
@@ -81,14 +84,6 @@ class FormulaCurve(Curve):
         # Equal ones say the same of their parameters, which share a name.
         keys = [(name, Operand(value).key()) for name, value, _ in self.arguments()]
         return (self.label, self.span, *keys)
-
-
-def _check(owner: str, value: Any, domain: Domain) -> None:
-    if isinstance(value, Parameter):
-        Use(owner, value, domain).check()
-        return
-    if domain.check(owner, value).ndim:
-        raise ValueFault(f"{owner} is {shown(value)}; give one number, or a Parameter for several")
 
 
 def _as_floats(raw_value: Any) -> Any:

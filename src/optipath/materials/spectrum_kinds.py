@@ -25,7 +25,7 @@ from optipath.materials.quantities import NON_NEGATIVE
 from optipath.materials.tables import Tabulated
 from optipath.values.arrays import Unchanging, first_place, locked
 from optipath.values.curve import WavelengthRange, is_within, span_text
-from optipath.values.parameters import Parameter
+from optipath.values.domains import Domain, one_number
 from optipath.values.units import displayed
 from optipath.values.wavelength import LONGEST, WavelengthDomain
 
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
     from optipath.values.curve import Curve
-    from optipath.values.domains import Domain
 
     Array = np.ndarray[Any, Any]
 
@@ -54,11 +53,6 @@ def several(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> Array:
     >>> several("a grid", ["500 nm", "2.4 eV"], PLACES).round(10)
     array([5.000e-07, 5.166e-07])
     """
-    if isinstance(value, Parameter):
-        raise ValueFault(
-            f"{owner} cannot be the parameter '{value.name}'; give a number here, and a parameter "
-            f"to Source(intensity=...), which a spectrum is multiplied by"
-        )
     return np.array(domain.check(owner, value), np.float64)
 
 
@@ -68,10 +62,7 @@ def single(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> float:
     >>> single("a line", "633 nm", PLACES)
     6.33e-07
     """
-    array = several(owner, value, domain)
-    if array.ndim:
-        raise ValueFault(f"{owner} must be one {domain.name}, not an array of shape {array.shape}")
-    return float(array)
+    return one_number(owner, value, domain)
 
 
 def edges_of(owner: str, value: Any) -> Array:

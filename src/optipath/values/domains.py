@@ -67,6 +67,8 @@ class Domain:
 
     def _no_number(self, value: Any, array: npt.NDArray[Any]) -> str:
         """Return why something is no number; what comes behind the name of its owner."""
+        if isinstance(value, Parameter):
+            return f"cannot be {value.called}, which is not known yet; give {self.described()}"
         entries = array.ravel().tolist() if array.dtype.kind == "O" else []
         if names := [entry.called for entry in entries if isinstance(entry, Parameter)]:
             whole = "one Parameter for the whole, and all numbers where the path is traced"
@@ -162,6 +164,14 @@ class Domain:
         if self.complex_parts:
             return str(number), ""
         return refused(number, self.unit, (self.minimum, self.maximum))
+
+
+def one_number(owner: str, value: Any, domain: Domain) -> float:
+    """Return the number that a domain allows, which is one and no array."""
+    array = domain.check(owner, value)
+    if array.ndim:
+        raise ValueFault(f"{owner} has shape {array.shape}; give one number")
+    return float(array)
 
 
 def in_unit_of(value: Any, domain: Domain) -> Any:
