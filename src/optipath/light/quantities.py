@@ -51,7 +51,7 @@ class LightQuantity:
     name: str
     """What it is, in words."""
     gradient: Callable[[Shares], tuple[Any, Any, Any, Any]] | None = None
-    """Its slopes along the components of the Stokes vector, times S0."""
+    """Its slopes along the components of the Stokes vector, times S0; `DERIVED` needs them."""
     limits: tuple[float, float] | None = None
     period: float | None = None
     """Of an angle whose ends are one."""

@@ -30,7 +30,7 @@ _NOISES = 4.0
 
 
 class Spread(NamedTuple):
-    """Covariance (..., 4, 4), uncertainties (..., 10), shares (..., 10, k) of figures of light."""
+    """Covariance (..., 4, 4), uncertainties (..., n), shares (..., n, k) of figures of light."""
 
     covariance: npt.NDArray[np.float64]
     uncertainties: npt.NDArray[np.float64]
@@ -40,7 +40,7 @@ class Spread(NamedTuple):
 def changes_of(
     light: Light, slopes: Any, uncertain: tuple[UncertainValue, ...], rounding: float
 ) -> npt.NDArray[np.float64]:
-    """Return the change (..., 10, k) of each figure by a standard uncertainty of each value."""
+    """Return the change (..., n, k) of each figure by a standard uncertainty of each value."""
     sigmas, scales = (
         np.stack([np.broadcast_to(n, slopes.shape[:-2]) for n in numbers], axis=-1)
         for numbers in ([u.sigma for u in uncertain], [u.scale for u in uncertain])
@@ -67,7 +67,7 @@ def spread_of(changes: Any, correlation: npt.NDArray[np.float64]) -> Spread:
 
     JCGM 100:2008 (GUM), eq. 13, and eq. 10 without correlation; for several figures at once JCGM
     102:2011, sec. 6.2. The share of a value is that of its row in the double sum of eq. 13. Shapes:
-    changes (..., 10, k); correlation (k, k).
+    changes (..., n, k); correlation (k, k).
 
     >>> changes = np.zeros((10, 2))
     >>> changes[0] = 3.0, 4.0
@@ -101,7 +101,7 @@ STEPS = (1.0, 1.5, 2.0, 2.5, 3.0)
 def nonlinearity_of(
     light_at: LightAt, light: Light, changes: Any, uncertainties: Any, correlation: Any
 ) -> npt.NDArray[np.float64]:
-    """Return what the first order leaves (..., 10, k), as a share of the uncertainty.
+    """Return what the first order leaves (..., n, k), as a share of the uncertainty.
 
     The path runs with each value up to 3 standard uncertainties up and down, each pair changed by
     one, and all along the direction in which each Stokes component changes most; the remainder at n

@@ -35,12 +35,12 @@ _PERIODS = {place: each.period for place, each in enumerate(QUANTITIES) if each.
 
 
 def figures_of(light: Light) -> npt.NDArray[np.float64]:
-    """Return all figures, of shape (..., 10), in the order of `QUANTITIES`; NaN for what is not."""
+    """Return all n figures, of shape (..., n), in the order of `QUANTITIES`; NaN for what is not."""
     return np.stack([np.asarray(each.of(light), np.float64) for each in QUANTITIES], axis=-1)
 
 
 def difference(figures: Any, others: Any) -> npt.NDArray[np.float64]:
-    """Return differences of figures (..., 10), of angles the shorter way round."""
+    """Return differences of figures (..., n), of angles the shorter way round."""
     result = np.asarray(figures - others)
     for place, period in _PERIODS.items():
         result[..., place] -= period * np.round(result[..., place] / period)
@@ -48,7 +48,7 @@ def difference(figures: Any, others: Any) -> npt.NDArray[np.float64]:
 
 
 def rounding_of(light: Light) -> npt.NDArray[np.float64]:
-    """Return which changes of the figures are no more than rounding, shape (..., 10)."""
+    """Return which changes of the figures are no more than rounding, shape (..., n)."""
     with np.errstate(all="ignore"):
         slopes = np.sum(np.abs(np.nan_to_num(gradients_of(light))), axis=-1)
         noise = np.asarray(light.noise, np.float64)[..., np.newaxis]
@@ -66,7 +66,7 @@ def place_of(quantity: object) -> int:
 
 
 def gradients_of(light: Light) -> npt.NDArray[np.float64]:
-    """Return the slopes (..., 10, 4) of all figures; NaN at corners, as of unpolarized DoP."""
+    """Return the slopes (..., n, 4) of all figures; NaN at corners, as of unpolarized DoP."""
     stokes = np.asarray(light.stokes, np.float64)
     s0 = stokes[..., 0]
     with np.errstate(all="ignore"):

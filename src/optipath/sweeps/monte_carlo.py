@@ -187,7 +187,7 @@ class SampleMoments:
     Samples are added one by one: the same to the last bit for any blocks.
 
     >>> moments = SampleMoments(1e-200)
-    >>> moments.add(np.full((2, 10), [[1e-200], [3e-200]]))
+    >>> moments.add(np.full((2, len(QUANTITIES)), [[1e-200], [3e-200]]))
     >>> print(moments.mean[0], f"{moments.deviation[0]:.3g}")
     2e-200 1.41e-200
     """
@@ -211,12 +211,12 @@ class SampleMoments:
 
     @property
     def mean(self) -> Numbers:
-        """Their mean, shape (..., 10)."""
+        """Their mean, shape (..., n)."""
         return np.asarray(self._mean * self._scale)
 
     @property
     def deviation(self) -> Numbers:
-        """Their standard deviation, shape (..., 10)."""
+        """Their standard deviation, shape (..., n)."""
         with np.errstate(all="ignore"):
             left = np.maximum(self._second - self._count * self._mean**2, 0.0)
             return np.asarray(np.sqrt(left / (self._count - 1)) * self._scale)
