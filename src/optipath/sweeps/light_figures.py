@@ -35,7 +35,7 @@ _PERIODS = {place: each.period for place, each in enumerate(QUANTITIES) if each.
 
 
 def figures_of(light: Light) -> npt.NDArray[np.float64]:
-    """Return all n figures, of shape (..., n), in the order of `QUANTITIES`; NaN for what is not."""
+    """Return all figures (..., n), in the order of `QUANTITIES`; NaN for what is not."""
     return np.stack([np.asarray(each.of(light), np.float64) for each in QUANTITIES], axis=-1)
 
 
