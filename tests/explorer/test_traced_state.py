@@ -233,7 +233,7 @@ def test_a_material_is_offered_stands_for_n_and_k_and_asks_for_the_wavelength(an
     offered = {"sky-and-window": False, "pile-of-plates": False, "absorbing-pile": True}
     for preset, is_offered in offered.items():
         assert bool(parameters(answers, preset)["n"]["materials"]) is is_offered
-    values = {"n1": "gold", "n2": "water", "k2": "0.1", "wavelength": "500"}
+    values = {"n1": "gold", "n2": "water", "k2": "1:10", "wavelength": "500"}
     text = python(answers, EIGHT | {"values": values}, capsys)
     assert "n1=op.Material.named('gold')" in text
     assert "n2=op.Material.named('water', k=0.1)" in text

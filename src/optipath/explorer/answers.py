@@ -160,5 +160,6 @@ def _material(state: ReadState, name: str) -> str:
     """Return a material by its name, with the k that is given beside it."""
     texts = state.asked.values
     own = extinction_with(state.base.uses, name)
-    k = f", k={float(texts[own])!r}" if own in texts else ""
+    known = state.base.parameters
+    k = f", k={float(known[own].resolve(texts[own]).value)!r}" if own in texts else ""
     return f"op.Material.named({texts[name].strip()!r}{k})"
