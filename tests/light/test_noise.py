@@ -165,7 +165,7 @@ def test_light_that_comes_back_from_any_factor_has_its_noise_and_its_ellipse(fac
         ([1.0, 0.0, -np.inf, 0.0], "not finite"),
         ([0.0, 1e-300, 0.0, 0.0], "polarised, and dark"),
         ([1e308, 1e308, 1e308, 1e308], "polarised by 173.205 %"),
-        ([[1.0, 0, 0, 0], [1.0, 2.0, 0, 0], [1.0, 3.0, 0, 0]], r"light \[1\] .* \(one of 2 such\)"),
+        ([[1.0, 0, 0, 0], [1.0, 2.0, 0, 0], [1.0, 3.0, 0, 0]], "light at 1 is"),
         (np.array([1.0, 1.001, 0.0, 0.0], np.float32), "polarised by 100.1 %"),
     ],
 )

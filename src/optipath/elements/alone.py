@@ -110,12 +110,8 @@ def _no_way(owner: str, enters: str, leaves: str, couplings: tuple[Coupling, ...
 
 def _open(owner: str, use: Use) -> str:
     """Say that a value is not known yet."""
-    if isinstance(use.value, CurveValue):
-        return (
-            f"{use.value.spoken} of {owner} depends on the wavelength, and alone it has none; give "
-            f"what stands there .at('550 nm')"
-        )
-    return f"parameter '{use.value.name}' of {owner} has no value yet"
+    cure = "; give what stands there .at('550 nm')" * isinstance(use.value, CurveValue)
+    return f"{use.value.called} of {owner} has no value yet{cure}"
 
 
 def _frame_at(element: Any, port: str, frames: dict[str, Frame]) -> Frame | None:

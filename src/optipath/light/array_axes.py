@@ -46,17 +46,14 @@ class ArrayAxes:
 
     def __len__(self) -> int:
         """Return how many there are along the first axis."""
-        self._check_batch("has no length")
+        if not self.shape:
+            one = f"a single {self._kind}"
+            raise LightError(f"{one} has no length; its numbers are {self._written}")
         return self.shape[0]
 
     def __iter__(self) -> Iterator[Self]:
         """Yield those along the first axis."""
-        self._check_batch("cannot be gone through")
         return (self[place] for place in range(len(self)))
-
-    def _check_batch(self, problem: str) -> None:
-        if not self.shape:
-            raise LightError(f"a single {self._kind} {problem}; its numbers are {self._written}")
 
     def __bool__(self) -> NoReturn:
         """Refuse to be true or false: what is dark would be either."""

@@ -646,10 +646,9 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         'linear\nS0 = 1, DoP = 1, AoP = 45°'
         """
         ParameterError.raise_for(unknown("kind of picture", kind, _KINDS))
-        from optipath.plots import ellipse, poincare, stokes  # noqa: PLC0415 - above light
+        from optipath import plots  # noqa: PLC0415 - above light
 
-        draws: Any = {"ellipse": ellipse, "poincare": poincare, "stokes": stokes}
-        draw = draws[kind]
+        draw = getattr(plots, kind)
         known = [name for name in signature(draw).parameters if name not in ("light", "ax")]
         wrong = [fault for name in options for fault in unknown(f"{kind} option", name, known)]
         ParameterError.raise_for(wrong)

@@ -13,6 +13,7 @@ import numpy as np
 
 from optipath.errors import ValueFault, shown
 from optipath.kernels.carriers.structures import turn_linear
+from optipath.values.arrays import first_place
 from optipath.values.domains import can_be_light
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.precision import coarser, rounding_of
@@ -117,11 +118,8 @@ def check_physical(stokes: Array) -> None:
     bad = endless | (message[..., 0] < 0.0) | beyond
     if not bad.any():
         return
-    place = tuple(int(i) for i in np.argwhere(bad)[0])
-    which = f"light {list(place)}" if place else "light"
-    more = f" (one of {bad.sum()} such)" if bad.sum() > 1 else ""
-    vector = stokes[place]
-    raise ValueFault(f"{which} is {shown(vector.tolist())}, {problem_of(vector)}{more}; {_CURE}")
+    vector, which = stokes[bad][0], f"light{first_place(bad)}"
+    raise ValueFault(f"{which} is {shown(vector.tolist())}, {problem_of(vector)}; {_CURE}")
 
 
 def problem_of(vector: Array) -> str:
