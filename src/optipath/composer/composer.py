@@ -56,8 +56,7 @@ def checked(
     faults += [] if faults else _own_faults(wiring)
     if wiring.starts and wiring.ends and not cyclic:
         faults += _reach_faults(wiring)
-    if faults:
-        raise PathError(*faults)
+    PathError.raise_for(faults)
     for element in wiring.elements.values():
         vars(element)["_is_sound"] = True
     return values, wiring, media
@@ -222,8 +221,7 @@ class Composer:
                 faults += unknown(option, value, choices)
         with collecting(faults, ComposerError):
             object.__setattr__(self, "dtype", precision_name(self.dtype))
-        if faults:
-            raise ComposerError(*faults)
+        ComposerError.raise_for(faults)
         if not is_installed(self.engine):
             faults += REGISTRY[self.engine].missing.faults
         if (self.engine, self.dtype) == ("jax", "longdouble"):
@@ -233,8 +231,7 @@ class Composer:
         if self.composing == "jones" and self.model in MODELS[:-1]:
             cure = "use model 'auto' or composing='stokes'"
             faults.append(f"model '{self.model}' is not for composing='jones'; {cure}")
-        if faults:
-            raise ComposerError(*faults)
+        ComposerError.raise_for(faults)
 
     def _tolerance_faults(self) -> list[str]:
         if self.tolerance is None:

@@ -55,8 +55,7 @@ def refuse_no_jones(program: Program) -> None:
         faults.append(
             f"light goes round at {places}, and what adds up there has no Jones vector; {cure}"
         )
-    if faults:
-        raise ComposerError(*faults)
+    ComposerError.raise_for(faults)
 
 
 class _Lowering:

@@ -169,8 +169,7 @@ def _check_same(name: str, pairs: Mapping[str, tuple[Any, Any]]) -> None:
         for what, (raced, charted) in pairs.items()
         if raced != charted
     ]
-    if faults:
-        raise OptipathError(*faults)
+    OptipathError.raise_for(faults)
 
 
 def _racer(entry: Mapping[str, Any], ratio: float) -> Racer:

@@ -289,6 +289,5 @@ PLACES = {place.name: place for place in _PLACES}
 
 def places_called(names: Sequence[str]) -> list[CriticalPlace]:
     """Return places by their names, each once."""
-    if faults := [fault for name in names for fault in unknown("place", name, PLACES)]:
-        raise OptipathError(*faults)
+    OptipathError.raise_for([fault for name in names for fault in unknown("place", name, PLACES)])
     return [PLACES[name] for name in dict.fromkeys(names)]

@@ -88,8 +88,7 @@ def bind(known: Values, values: Mapping[str, Any], *, for_good: bool = True) -> 
                 faults += of_complex(fault.faults, known.uses, name, value)
     result = exchanged(known, bound)
     faults += result.faults
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     uses = [use for use in known.open_uses if use.value.name in values]
     Inputs(parameters, {}, tuple(uses), {}).warn_of_angles(values)
     return result
@@ -124,8 +123,7 @@ def _materials_placed(
             plain.pop(part, None)
             is_number = not isinstance(value, (Parameter, Material))
             (plain if is_number else placed)[part] = value
-    if faults:
-        raise ParameterError(*dict.fromkeys(faults))
+    ParameterError.raise_for(faults)
     return plain, placed
 
 
@@ -250,8 +248,7 @@ class PlaceChoice:
 def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
     """Move the node of a choice, in place."""
     choice: PlaceChoice = graph.graph["choices"][name]
-    if faults := unknown(f"{name}", word, choice.behind):
-        raise PathError(*faults)
+    PathError.raise_for(unknown(f"{name}", word, choice.behind))
     element = element_at(graph, choice.node)
     if choice.place(graph) != word:
         with told_as(PathError, f"'{choice.node}' cannot be moved to {name}={shown(word)}"):
@@ -292,6 +289,5 @@ def with_arguments(known: Values, values: dict[str, Any], *, for_good: bool) -> 
                 put_in_place(known.graph, name, values.pop(name))
     with collecting(faults, ParameterError):
         known = bind(known, values, for_good=for_good)
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     return known

@@ -84,8 +84,7 @@ def histories(
         "lengths": () if known_lengths is None else known_lengths.shape,
         "events": letters.shape[:-1],
     }
-    if faults := broadcast_fault({name: shape for name, shape in batches.items() if shape}):
-        raise ValueFault(*faults)
+    ValueFault.raise_for(broadcast_fault({name: shape for name, shape in batches.items() if shape}))
     codes = events_of(letters, known_lengths)
     ended = codes == Event.BEHIND
     media = tuple(materials)

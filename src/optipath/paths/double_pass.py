@@ -60,8 +60,7 @@ def there_and_back(*elements: Chainable) -> PathGraph:
     if not elements:
         raise PathError("op.there_and_back() needs elements, and last where light turns back")
     *others, last = [begun(element) for element in elements]
-    if faults := [*_turning_faults(last), *_piece_faults(others)]:
-        raise PathError(*faults)
+    PathError.raise_for([*_turning_faults(last), *_piece_faults(others)])
     there = PathGraph()
     for other in others:
         there = there >> other

@@ -79,10 +79,8 @@ def value_text(value: Any, unit: str) -> str:
             return str(n.curve.label)
         return f"{value_text(value.n, '')} + {value_text(value.k, '')} i"
     if isinstance(value, VerticesByAngles):
-        each = ((name, getattr(value, name)) for name in ("incidences", "turns"))
-        texts = (
-            f"{name} ({', '.join(value_text(a, 'deg') for a in angles)})" for name, angles in each
-        )
+        names = ("incidences", "turns")
+        texts = [f"{name} {value_text(getattr(value, name), 'deg')}" for name in names]
         return ", ".join([*texts, *["backwards"] * value.backwards])
     if isinstance(value, tuple):
         return "[" + ", ".join(value_text(one, unit) for one in value) + "]"

@@ -78,8 +78,7 @@ def join(
     faults += [
         f"{what} '{name}' stands on both sides of >>; use two names" for what, name in shared
     ]
-    if faults:
-        raise PathError(*faults)
+    PathError.raise_for(faults)
     for name, about in second.nodes.items():
         first.add_node(names[name], **about)
     for (start, end, key), about in second.edges.items():
@@ -105,23 +104,18 @@ def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
 
 def as_chain(graph: nx.MultiDiGraph) -> list[str]:
     """Return the nodes of a path that `>>` alone can make, in order; none for any other."""
-    starts = [name for name in graph if not graph.in_degree(name)]
-    if len(starts) != 1 or len(graph) > _LONGEST or graph.number_of_edges() != len(graph) - 1:
+    chain = [name for name in graph if not graph.in_degree(name)]
+    if len(chain) != 1 or len(graph) > _LONGEST or graph.number_of_edges() != len(graph) - 1:
         return []
-    chain = starts
     for name in chain:
-        links = list(graph.out_edges(name, keys=True, data="tap"))
-        if len(links) > 1:
-            return []
-        for _, end, (leaves, enters), tap in links:
-            natural = (
-                natural_of(element_at(graph, name), out=True),
-                natural_of(element_at(graph, end), out=False),
-            )
-            if tap or (leaves, enters) != natural:
+        leaves = natural_of(element_at(graph, name), out=True)
+        for _, end, ports, tap in graph.out_edges(name, keys=True, data="tap"):
+            if tap or ports != (leaves, natural_of(element_at(graph, end), out=False)):
                 return []
             chain.append(end)
-    return chain if len(chain) == len(graph) else []
+    # One link fewer than nodes, so that none is met twice; a fork has more than one end.
+    ends = [name for name in graph if not graph.out_degree(name)]
+    return chain if len(chain) == len(graph) and len(ends) == 1 else []
 
 
 def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
@@ -313,8 +307,7 @@ def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> N
     trial = graph.copy()
     change(trial)
     known = placement_faults(Wiring(graph))
-    if faults := [fault for fault in placement_faults(Wiring(trial)) if fault not in known]:
-        raise PathError(*faults)
+    PathError.raise_for([fault for fault in placement_faults(Wiring(trial)) if fault not in known])
     change(graph)
 
 
@@ -327,9 +320,7 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
         raise PathError(f"node '{name}' is there already; choose another name")
     check_element(name, element)
     frames = {} if frames is None else frames
-    if not isinstance(frames, Mapping) or not all(
-        isinstance(frame, Frame) for frame in frames.values()
-    ):
+    if not isinstance(frames, Mapping) or [f for f in frames.values() if not isinstance(f, Frame)]:
         wrong = f"such as {{'in': Frame()}}, not {shown(frames)}"
         raise PathError(f"frames of '{name}' must be a Frame for each port, {wrong}")
     frames = dict(frames)
@@ -388,8 +379,7 @@ def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]
     for text, out in ((leaves, True), (enters, False)):
         with collecting(faults, PathError):
             ends.append(find_port(graph, text, out=out))
-    if faults:
-        raise PathError(*faults)
+    PathError.raise_for(faults)
     (start, out_port), (end, in_port) = ends
     return start, end, (out_port, in_port)
 

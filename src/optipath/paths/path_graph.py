@@ -89,8 +89,7 @@ class PathGraph(Chainable):
             raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
         self.description = description
         self.cases = dict(cases)
-        if faults := unknown("loops", loops, LOOPS):
-            raise PathError(*faults)
+        PathError.raise_for(unknown("loops", loops, LOOPS))
         names = entries_of("declared", "names of parameters", declared, PathError)
         if [name for name in names if not isinstance(name, str)]:
             raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
@@ -334,8 +333,7 @@ class PathGraph(Chainable):
         if name in self.choices or name in self.parameters:
             raise PathError(f"choice or parameter '{name}' is there already; use another name")
         choice = PlaceChoice(node, behind, help)
-        if faults := choice_faults(self._graph, choice):
-            raise PathError(*faults)
+        PathError.raise_for(choice_faults(self._graph, choice))
         self._graph.graph["choices"] = self.choices | {name: choice}
         self._plans.clear()
 
@@ -415,8 +413,7 @@ class PathGraph(Chainable):
         >>> op.load_preset("malus").reading("intensity").trace().stokes
         array([0.375,   nan,   nan,   nan])
         """
-        if faults := Detector(reads).faults("path.reading(...)"):
-            raise PathError(*faults)
+        PathError.raise_for(Detector(reads).faults("path.reading(...)"))
         graph = self._graph.copy()
         for node in graph.nodes.values():
             if hasattr(node["element"], "reads"):
@@ -510,8 +507,7 @@ class PathGraph(Chainable):
         if not ends and "keep" not in plan.inputs.open:
             if path := self._with_curves(parameters):
                 return path.trace(keep="all", **parameters)
-            if faults := unknown("keep", keep, KEEPABLE):
-                raise ParameterError(*faults)
+            ParameterError.raise_for(unknown("keep", keep, KEEPABLE))
             return self.plan_by(Composer(keep=keep)).run_all(**parameters)
         if not ends:
             parameters["keep"] = keep

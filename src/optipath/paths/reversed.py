@@ -37,13 +37,11 @@ _SAME = 1e-9
 def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGraph:
     """Return a graph of elements in which light goes the other way."""
     filled, faults = with_followed(graph)
-    if faults:
-        raise PathError(*faults)
+    PathError.raise_for(faults)
     turning = _Turning(Wiring(filled))
     sources, faults = sources_by_name(source, turning.before)
     turning.reverse_elements(sources)
-    if faults := [*faults, *turning.faults, *turning.link_faults()]:
-        raise PathError(*faults)
+    PathError.raise_for([*faults, *turning.faults, *turning.link_faults()])
     choices = reversed_choices(turning.wiring, turning.port)
     result = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
     for name in [*graph][::-1]:

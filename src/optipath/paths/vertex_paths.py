@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.vertex_chain import BAD, VERTICES, VerticesByAngles, counted, legs_fit
-from optipath.errors import OptipathError, PathError, ValueFault, shown, unknown
+from optipath.errors import PathError, ValueFault, shown, told_as, unknown
 from optipath.materials.index_domains import OUTSIDE
 from optipath.paths.chains import (
     Histories,
@@ -115,12 +115,10 @@ def path_from_vertices(
     >>> print(both.trace().intensity.round(9))
     [0.00147456 0.04      ]
     """
-    if faults := unknown("bad", bad, BAD):
-        raise PathError(*faults)
-    try:
+    PathError.raise_for(unknown("bad", bad, BAD))
+    with told_as(PathError):
         start = stored_value("outside", outside, OUTSIDE)
-        if faults := faults_of(Use(*part) for part in OUTSIDE.parts("outside", start)):
-            raise ValueFault(*faults)
+        ValueFault.raise_for(faults_of(Use(*part) for part in OUTSIDE.parts("outside", start)))
         media = entries_of("materials", "one for each vertex", materials)
         if not media:
             raise ValueFault("materials must be a sequence of one for each vertex; it is empty")
@@ -145,8 +143,6 @@ def path_from_vertices(
             if bad == "mask" and isinstance(points, np.ndarray):
                 there = legs_fit(points)[..., 1:] & (True if there is None else there)
             refuse_doubtful(chains, points, start, there)
-    except OptipathError as error:
-        raise PathError(*error.faults) from None
     return path
 
 

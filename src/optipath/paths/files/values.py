@@ -131,13 +131,11 @@ def _of_table(raw: dict[str, Any], domain: Domain, parameters: Parameters) -> An
         return _complex(_parts(raw, domain, {}))
     if isinstance(domain, VerticesDomain):
         checked_table(raw, {**dict.fromkeys(_ANGLES, list), _BACKWARDS: bool})
-        incidences, turns = (
-            tuple(
-                each_entry(raw.get(key, []), lambda one: decode(one, ANGLE, parameters), f".{key}")
-            )
+        angles = [
+            each_entry(raw.get(key, []), lambda one: decode(one, ANGLE, parameters), f".{key}")
             for key in _ANGLES
-        )
-        return VerticesByAngles(incidences, turns, raw.get(_BACKWARDS, False))
+        ]
+        return VerticesByAngles(*map(tuple, angles), raw.get(_BACKWARDS, False))
     return number_of(raw, domain.unit)  # Which it is not.
 
 
@@ -206,8 +204,15 @@ def _parts(raw: Any, domain: Domain, parameters: Parameters) -> dict[str, Any]:
     of_index = names == INDEX.complex_parts
     checked_table(raw, (*names, *_CURVES) if of_index else names, names[:1])
     domains = dict.fromkeys(names, Domain(domain.name)) | ({"k": K} if of_index else {})
-    parts = {key: raw[key] for key in domains if key in raw}
-    return each_key(parts, lambda key, part: decode(part, domains[key], parameters))
+    return _of_keys(raw, domains, parameters)
+
+
+def _of_keys(
+    raw: Mapping[str, Any], domains: Mapping[str, Domain], parameters: Parameters
+) -> dict[str, Any]:
+    """Return the values of those keys of a table that it has."""
+    values = {key: raw[key] for key in domains if key in raw}
+    return each_key(values, lambda key, value: decode(value, domains[key], parameters))
 
 
 def _complex(parts: Mapping[str, Any]) -> Any:
@@ -249,12 +254,7 @@ def _wavelength(raw: Mapping[str, Any], parameters: Parameters) -> Any:
     """Return the wavelength at which a curve is read."""
     if _WHEN not in raw:
         return parameters.get(_WHEN) or Wavelength()
-    return _at_key(_WHEN, raw, WAVELENGTH, parameters)
-
-
-def _at_key(key: str, raw: Mapping[str, Any], domain: Domain, parameters: Parameters) -> Any:
-    """Return the value of a key of a table, or raise with its place."""
-    return each_key({key: raw[key]}, lambda _, value: decode(value, domain, parameters))[key]
+    return _of_keys(raw, {_WHEN: WAVELENGTH}, parameters)[_WHEN]
 
 
 def _curve(raw: Mapping[str, Any], domain: Domain, parameters: Parameters) -> Any:
@@ -294,9 +294,8 @@ def _numbers(
     checked_table(raw, known, ("n",) if form == _SAMPLES and of_index else ())
     when = _wavelength(raw, parameters)
     if form == _MATERIAL:
-        parts = {key: raw[key] for key in PARTS if key in raw}
-        numbers = each_key(parts, lambda key, part: decode(part, PARTS[key], parameters))
         texts: dict[str, Any] = {key: raw[key] for key in _TEXTS if key in raw}
+        numbers = _of_keys(raw, PARTS, parameters)
         named = Material.named(raw[_MATERIAL], wavelength=when, **texts, **numbers)
         return {"n": named.n, "k": named.k}
     if form == _CRYSTAL:
@@ -313,7 +312,7 @@ def _numbers(
     if has_own_k:
         if "k" in results:
             raise PresetError(f"'{form}' gives k as well; leave k out")
-        results["k"] = _at_key("k", raw, K, parameters)
+        results |= _of_keys(raw, {"k": K}, parameters)
     return results
 
 
@@ -368,11 +367,9 @@ def _together(raw: Mapping[str, Any], form: str, domain: Domain, parameters: Par
 
 def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, parameters: Parameters) -> Any:
     """Return a multiple of a value with an offset, where the table says so."""
-    if "scale" in raw:
-        value = _at_key("scale", raw, Domain("scale"), parameters) * value
-    if "offset" in raw:
-        value = value + _at_key("offset", raw, domain, parameters)
-    return value
+    numbers = _of_keys(raw, {"scale": Domain("scale"), "offset": domain}, parameters)
+    value = numbers["scale"] * value if "scale" in numbers else value
+    return value + numbers["offset"] if "offset" in numbers else value
 
 
 def _in(raw: Any) -> list[Any]:

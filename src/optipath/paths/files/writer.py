@@ -75,8 +75,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         gives = f"case '{name}' gives parameter"
         faults += [f"{gives} '{one}', which is unknown{near}" for one, near in strange.items()]
         tables.append(toml_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
-    if faults:
-        raise PathError(*faults)
+    PathError.raise_for(faults)
     return "\n".join(tables)
 
 
