@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from heapq import heapify, heappop, heappush
+from itertools import chain
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import networkx as nx
@@ -69,11 +70,9 @@ class Wiring:
 
     def own_ways(self, method: str = "stable") -> list[OwnWays]:
         """Return the ways through elements of a user's own that are to be looked at."""
-        return [
-            ways
-            for name, couplings in self.couplings.items()
-            for ways in own_ways(name, self.elements[name], couplings, method)
-        ]
+        ways = self.couplings.items()
+        each = [own_ways(name, self.elements[name], several, method) for name, several in ways]
+        return [*chain.from_iterable(each)]
 
     @cached_property
     def links_to(self) -> dict[Port, list[Link]]:

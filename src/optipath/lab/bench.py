@@ -159,9 +159,7 @@ def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
             others[name] = np.clip(default * draw(0.9, 1.1, count), low, high)
     if angles or others:
         return angles or others
-    raise ParameterError(
-        "the path has no open parameter that can be varied; leave an angle open to time it"
-    )
+    raise ParameterError("the path has no open parameter to vary; leave an angle open to time it")
 
 
 _UNITS = {1.0: "s", 1e-3: "ms", 1e-6: "us", 1e-9: "ns"}

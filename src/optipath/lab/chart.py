@@ -101,9 +101,7 @@ def path_chart(
 ) -> dict[str, Any]:
     """Measure every way to compute a path: first the times, then region after region."""
     if batch := path.compose().inputs.resolve({})[1]:
-        raise ParameterError(
-            f"a chart is of one path, and this is a batch of shape {batch}; give single values"
-        )
+        raise ParameterError(f"a chart is of one path, not of a batch {batch}; give single values")
     runners = _different(path, effort)
     graph, values = many_paths(path, PATHS)
     progress("composing and compiling", 0.0)
@@ -124,9 +122,10 @@ def path_chart(
         (runner, partial(p.run_all, **values)) for runner, p in zip(runners, plans, strict=True)
     ]
     regions = {AS_PASSED: None, **{r.name: r for r in REGIONS if interfaces(path)}}
-    made: dict[str, Any] = {}
-    made["parameters"] = {name: p.text(p.default) for name, p in path.parameters.items()}
-    return _chart(made, title, effort, runs, least, regions, off, progress, keep)
+    parameters = {name: p.text(p.default) for name, p in path.parameters.items()}
+    return _chart(
+        {"parameters": parameters}, title, effort, runs, least, regions, off, progress, keep
+    )
 
 
 def interface_chart(
@@ -307,10 +306,8 @@ def _of_interface(samples: int) -> Callable[[Region], dict[str, Errors]]:
 
 def _of_path(path: PathGraph, title: str, samples: int) -> Callable[[Region], dict[str, Errors]]:
     if not interfaces(path):
-        raise OptipathError(
-            f"'{title}' has no interface that can be put near an angle; chart one that has, or "
-            f"one interface alone with --interface"
-        )
+        cure = "chart one that has, or one interface alone with --interface"
+        raise OptipathError(f"'{title}' has no interface that can be put near an angle; {cure}")
     runners = {}
     for method in METHODS:
         runner = Composer(method, dtype=DTYPE, engine="numpy", composing="stokes")

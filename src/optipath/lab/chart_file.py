@@ -48,9 +48,8 @@ def checked_chart(chart: Any, name: str) -> dict[str, Any]:
     """Return a chart of this version."""
     known = isinstance(chart, Mapping) and chart.get("format") == FORMAT
     if not known or not (chart.get("contenders") or chart.get("places")):
-        raise OptipathError(
-            f"{name} is no chart of this version; give a file that 'optipath chart --data' wrote"
-        )
+        cure = "give a file that 'optipath chart --data' wrote"
+        raise OptipathError(f"{name} is no chart of this version; {cure}")
     return chart  # type: ignore[no-any-return]
 
 
@@ -146,18 +145,15 @@ def peer_times(text: str, name: str, chart: Mapping[str, Any]) -> PeerTimes:
             ratio = own[0]["ns"]["least"] / times[shared]
             racers = tuple([_racer(entry, ratio) for entry in contest["results"]])
             return PeerTimes(racers, shared, ratio)
-    raise OptipathError(
-        f"'{name}' and the chart share no contender whose times can be compared; measure the "
-        f"chart with engine numpy or numba in float64"
-    )
+    cure = "measure the chart with engine numpy or numba in float64"
+    raise OptipathError(f"'{name}' and the chart share no contender; {cure}")
 
 
 def _race(text: str, name: str) -> Any:
     race = _loaded(text)
     if not isinstance(race, dict) or not {"processor", "software", "path", "contests"} <= {*race}:
-        raise OptipathError(
-            f"'{name}' is no race; give a file that 'benchmarks/peers/race.py --json' wrote"
-        )
+        cure = "give a file that 'benchmarks/peers/race.py --json' wrote"
+        raise OptipathError(f"'{name}' is no race; {cure}")
     return race
 
 

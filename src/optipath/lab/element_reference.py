@@ -54,10 +54,8 @@ if TYPE_CHECKING:
 def matrix_of(element: Element, way: Coupling, read: Reader) -> Any:
     """Return the Jones matrix of a way through, or Mueller's where only that will do."""
     del way, read
-    raise PathError(
-        f"elements of class {type(element).__name__} have no reference in many digits: register "
-        f"what computes their matrix with {__name__}.matrix_of.register, or leave them out"
-    )
+    cure = f"register what computes their matrix with {__name__}.matrix_of.register"
+    raise PathError(f"elements of class {type(element).__name__} have no reference; {cure}")
 
 
 @matrix_of.register

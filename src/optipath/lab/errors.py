@@ -80,10 +80,7 @@ def in_ulp(distance: Any, value: Any, dtype: str) -> float:
 
 SAMPLES = 200
 FAMILIES = {"reflection": REFLECTION, "transmission": TRANSMISSION}
-REFERENCES = {
-    "reflection": boundary_reference.reflection,
-    "transmission": boundary_reference.transmission,
-}
+REFERENCES = {what: getattr(boundary_reference, what) for what in FAMILIES}
 
 
 def interface_errors(

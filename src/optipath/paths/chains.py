@@ -357,10 +357,8 @@ def refuse_doubtful(chains: Histories, vertices: Any, outside: Any, there: Any) 
         )
         front = behind
     if readings:
-        mirrors = f"events='{REFLECTS * len(events)}' where it is reflected"
-        raise ValueFault(
-            f"{readings}; say which, {mirrors}, events='{events}' where it goes through"
-        )
+        one = f"events='{REFLECTS * len(events)}' where it is reflected"
+        raise ValueFault(f"{readings}; say which, {one}, events='{events}' where it goes through")
 
 
 def _around(

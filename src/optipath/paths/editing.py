@@ -134,9 +134,9 @@ def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
         return results[0]
     place, way = ("in front of", "out") if out else ("behind", "in")
     several = ", ".join(f"'{name}.{port}'" for name, port in results or unused)
+    cure = f"; connect one by its name: {several}" if unused else ""
     raise PathError(
-        f"the path {place} >> has {len(results)} natural ways {way} that are open, not one"
-        + (f"; connect one by its name: {several}" if unused else "")
+        f"the path {place} >> has {len(results)} natural ways {way} that are open{cure}"
     )
 
 
@@ -251,9 +251,7 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
         return
     if port in (*element.inputs, *element.outputs):
         way = "in" if port in element.inputs else "out"
-        raise PathError(
-            f"port '{owner}.{port}' lets light {way}; a link goes from an out-port to an in-port"
-        )
+        raise PathError(f"port '{owner}.{port}' lets light {way}; link an out-port to an in-port")
     known = [f"{owner}.{name}" for name in ports]
     raise PathError(f"port '{owner}.{port}' does not exist{did_you_mean(f'{owner}.{port}', known)}")
 
@@ -274,12 +272,10 @@ def natural_port(element: Element, owner: str, *, out: bool) -> str:
     if result:
         return result
     way, ports = ("out", element.outputs) if out else ("in", element.inputs)
+    if not ports:
+        raise PathError(f"'{owner}' has no way {way}: light {'ends' if out else 'begins'} there")
     names = ", ".join(f"'{owner}.{port}'" for port in ports)
-    raise PathError(
-        f"'{owner}' has no one natural way {way}; connect one of its {way}-ports: {names}"
-        if ports
-        else f"'{owner}' has no way {way}: light {'ends' if out else 'begins'} there"
-    )
+    raise PathError(f"'{owner}' has no one natural way {way}; connect one of its ports: {names}")
 
 
 def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:

@@ -23,7 +23,7 @@ from optipath.errors import (
     shown,
     unknown,
 )
-from optipath.materials.named_materials import is_by_wavelength, is_curve
+from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
 from optipath.paths.reversed import reversed_graph
@@ -384,7 +384,7 @@ class PathGraph(Chainable):
             opened = [name for name, p in self.parameters.items() if not p.bound]
             check_named("bind", unnamed, opened)
         path = self._having(with_arguments(self._values, values, for_good=True))
-        if any(map(is_by_wavelength, values.values())):
+        if self.parameters.keys() - path.parameters.keys():
             path.cases = cases_left(self.cases, {*path.parameters, *self.choices})
         return path
 

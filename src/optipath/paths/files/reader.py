@@ -40,9 +40,8 @@ def path_of_text(text: str, source: str, about: str = "") -> PathGraph:
     document = parsed(text, source)
     number = document.get("format", FORMAT)
     if number != FORMAT or isinstance(number, bool):
-        raise PresetError(
-            f"'{source}' has format {shown(number)}, but this version reads format {FORMAT}"
-        )
+        wrong = f"has format {shown(number)}, but this version reads format {FORMAT}"
+        raise PresetError(f"'{source}' {wrong}")
     try:
         return read(document)
     except RecursionError:

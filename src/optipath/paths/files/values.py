@@ -149,10 +149,9 @@ def _of_text(raw: str, domain: Domain, parameters: Parameters) -> Any:
     try:
         return domain.parse(raw)
     except OptipathError:
-        if raw.strip() in parameters:
-            raise PresetError(
-                f"'{raw}' is no number; write \"${raw.strip()}\" for the parameter"
-            ) from None
+        if (name := raw.strip()) in parameters:
+            cure = f'write "${name}" for the parameter'
+            raise PresetError(f"'{raw}' is no number; {cure}") from None
         raise
 
 
