@@ -203,7 +203,7 @@ def test_an_element_of_ones_own_has_the_reference_that_is_registered_for_it_alon
     stokes = of_eye(chain([Registered(op.Parameter("share"))], HALF), share=0.3).stokes
     assert abs(stokes[2] - mpmath.sqrt(mpmath.mpf(0.3)) / 2) <= 1e-49
     cure = (
-        r"class Unregistered have no reference .* register .*element_reference\.matrix_of\.register"
+        r"class Unregistered have no reference; register .*element_reference\.matrix_of\.register"
     )
     for reference in (exact_lights, exact_stokes):
         with pytest.raises(op.PathError, match=cure):

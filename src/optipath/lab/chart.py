@@ -101,7 +101,7 @@ def path_chart(
 ) -> dict[str, Any]:
     """Measure every way to compute a path: first the times, then region after region."""
     if batch := path.compose().inputs.resolve({})[1]:
-        raise ParameterError(f"a chart is of one path, not of a batch {batch}; give single values")
+        raise ParameterError(f"a chart has one path, no batch of shape {batch}; give single values")
     runners = _different(path, effort)
     graph, values = many_paths(path, PATHS)
     progress("composing and compiling", 0.0)
