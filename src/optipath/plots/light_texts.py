@@ -55,17 +55,16 @@ def one_path(
 
 def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
     """Return one or several lights by their names."""
-    several: Mapping[str, Light] = {}
+    several: dict[str, Light] = {}
     if isinstance(light, Mapping):
         if labels is not None:
             raise OptipathError("labels are for a batch; a mapping has names already")
         several = {str(name): known_light(each) for name, each in light.items()}
-        for name, each in several.items():
-            if each.shape:
-                raise OptipathError(
-                    f"light {shown(name)} is a batch of shape {each.shape}; give one of it by its "
-                    "index"
-                )
+        if batches := [name for name, each in several.items() if each.shape]:
+            name, shape = batches[0], several[batches[0]].shape
+            raise OptipathError(
+                f"light {shown(name)} is a batch of shape {shape}; give one of it by its index"
+            )
     elif known_light(light).ndim > 1:
         raise OptipathError(
             f"light of shape {light.shape} is more than a row; give one row of it, "
@@ -78,13 +77,12 @@ def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
             f"to {MOST}, such as light[:{MOST}] or every so many, light[::step]"
         )
     if isinstance(light, Mapping):
-        return dict(several)
+        return several
     names = [f"light[{place}]" for place in range(count)] if light.ndim else [""]
     if labels is not None:
         names = [labels] if isinstance(labels, str) else labels
-        if not isinstance(names, Sequence) or not all(isinstance(each, str) for each in names):
-            raise OptipathError(f"labels are {shown(labels)}; give a text for each light")
-        if len(names) != count or len({*names}) < count:
+        are_texts = isinstance(names, Sequence) and all(isinstance(each, str) for each in names)
+        if not are_texts or not len(names) == len({*names}) == count:
             raise OptipathError(
                 f"labels are {shown(labels)}; give {count} for {count} lights, each a name of its "
                 "own"

@@ -88,11 +88,7 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
     """Return the index behind, that in front, and a title that says both."""
     arguments = {"index": index, "outside": outside}
     media = {name: _medium(name, one) for name, one in arguments.items()}
-    depending = [
-        name
-        for name, one in media.items()
-        if isinstance(one.n, CurveValue) or isinstance(one.k, CurveValue)
-    ]
+    depending = [n for n, one in media.items() if CurveValue in (type(one.n), type(one.k))]
     if depending and wavelength is None:
         raise OptipathError(
             f"{depending[0]} {shown(arguments[depending[0]])} depends on the wavelength; give one, "
@@ -120,16 +116,14 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
         raise OptipathError(
             f"index and outside are both {_written(front)}, and nothing is reflected"
         )
-    messages = [f"n = {number}" for number in _distinguished(behind, front)]
-    at = ""
-    if depending:
-        parameter = Wavelength()
-        at = f" at {parameter.text(float(parameter.resolve(wavelength).value))}"
-    names = []
-    for message, (name, argument) in zip(messages, arguments.items(), strict=True):
-        own = at if name in depending else ""
-        names.append(f"{argument.strip()}{own}, {message}" if _is_name(argument) else message)
-    return behind, front.real, f"reflection: {' in '.join(names)}"
+    parameter, messages = Wavelength(), []
+    texts = _distinguished(behind, front)
+    for text, (name, argument) in zip(texts, arguments.items(), strict=True):
+        known = f"{argument.strip()}" if _is_name(argument) else ""
+        if known and name in depending:
+            known += f" at {parameter.text(float(parameter.resolve(wavelength).value))}"
+        messages.append(f"{known}, n = {text}" if known else f"n = {text}")
+    return behind, front.real, f"reflection: {' in '.join(messages)}"
 
 
 def _medium(name: str, argument: Any) -> Material:

@@ -27,12 +27,11 @@ from optipath.plots.scene.geometry import (
 from optipath.plots.scene.layout import (
     LARGEST_ELLIPSE,
     angles_in_chain,
-    quantity_text,
     scene_of,
     shown_incidence,
+    shown_value,
 )
 from optipath.plots.scene.placing import angles_at, has_axis, number
-from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -319,15 +318,14 @@ def values_below(element: Element) -> list[str]:
 
 def _texts(name: str, value: Any, unit: str) -> list[str]:
     """Return the text of a value that is no array and not left at nothing."""
-    if isinstance(value, Parameter):
-        if not bool(Operand(value, "present").numbers()):
-            return [f"{value.name} = none"]
-        said = f"{value.formula} = {quantity_text(number(value), value.unit or unit)}"
-        return [f"azimuth {said}" if name == "azimuth" else said]
-    if not isinstance(value, float | int) or (value == 0.0 and name not in _ALWAYS):
+    is_named = isinstance(value, Parameter)
+    if not is_named and (
+        not isinstance(value, float | int) or (value == 0.0 and name not in _ALWAYS)
+    ):
         return []
-    said = quantity_text(number(value), unit)
-    return [said if name == "angle" else f"{name} {said}"]
+    said = shown_value(value, unit)
+    bare = name == "angle" or (is_named and (name != "azimuth" or not said.there))
+    return [said.text if bare else f"{name} {said.text}"]
 
 
 _IN_PLANE = 1e-7

@@ -154,19 +154,12 @@ _SAME_ANGLE = 1e-9
 """By how much angles differ that are the same but for rounding, in radians."""
 
 
-class ShownAngle(NamedTuple):
-    """An angle of a path by its name. Units: angle in radians."""
+class ShownValue(NamedTuple):
+    """A value of a path by its name, and whether there is one."""
 
     name: str
-    angle: float
+    text: str
     there: bool = True
-    unit: str = "deg"
-
-    @property
-    def text(self) -> str:
-        """The name, and the value in its unit."""
-        value = quantity_text(self.angle, self.unit) if self.there else "none"
-        return f"{self.name} = {value}" if self.name else value
 
 
 def quantity_text(value: float, unit: str) -> str:
@@ -178,24 +171,23 @@ def quantity_text(value: float, unit: str) -> str:
     return f"{in_unit(value, unit) + 0.0:.5g} {unit}".strip()
 
 
-def shown_angle(value: Any, *, signed: bool = True) -> ShownAngle:
-    """Return an angle in radians by the name of its parameter, or the formula of a multiple."""
+def shown_value(value: Any, unit: str = "deg") -> ShownValue:
+    """Return a value by the name of its parameter, or the formula of a multiple."""
     if not isinstance(value, Parameter):
-        return ShownAngle("", number(value))
-    unit = value.unit or "deg"
+        return ShownValue("", quantity_text(number(value), unit))
     if not bool(Operand(value, "present").numbers()):
-        return ShownAngle(value.name, 0.0, there=False, unit=unit)
-    if value.is_signed and not (signed and value.is_negative):
-        return ShownAngle(value.name, number(value.alone()), unit=unit)
-    return ShownAngle(value.formula, number(value), unit=unit)
+        return ShownValue(value.name, f"{value.name} = none", there=False)
+    text = quantity_text(number(value), value.unit or unit)
+    return ShownValue(value.formula, f"{value.formula} = {text}")
 
 
-def shown_incidence(value: Any, front: float) -> ShownAngle:
+def shown_incidence(value: Any, front: float) -> ShownValue:
     """Return the incidence in radians at a surface, by its name if it is given."""
-    message = shown_angle(value)
+    message = shown_value(value)
     if message.name and abs(number(value) - front) <= _SAME_ANGLE:
         return message
-    return ShownAngle("incidence", front if front > _SAME_ANGLE else 0.0)
+    front = front if front > _SAME_ANGLE else 0.0
+    return ShownValue("incidence", f"incidence = {quantity_text(front, 'deg')}")
 
 
 LARGEST_ELLIPSE = 0.18
@@ -249,7 +241,7 @@ def _node(placing: Placing, name: str) -> SceneNode:
     axis = None
     if posture.role == "plate" and has_axis(element):
         angle = element.angle  # type: ignore[attr-defined]
-        if shown_angle(angle).there:
+        if shown_value(angle).there:
             x, y, _ = posture.axes["in"].T
             axis = np.cos(number(angle)) * x + np.sin(number(angle)) * y
     stands = placing.at[name], posture.normal, posture.across
@@ -344,7 +336,7 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
         argument = number(value) if isinstance(value, Parameter) else front
         if abs(argument - front) > 1e-9 and abs(argument - behind) < 1e-9:
             out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
-            yield _arc(shown_angle(value), at, -normal, out, behind, size)
+            yield _arc(shown_value(value), at, -normal, out, behind, size)
     elif (argument := angles_in_chain(element)[0]) is not None:
         value = argument
     message = shown_incidence(value, front)
@@ -359,7 +351,8 @@ def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
         _, value = angles_in_chain(wiring.elements[link[1]])
     if not isinstance(value, Parameter):
         return
-    message, drawn = shown_angle(value, signed=False), placing.links[link]
+    message = shown_value(value.alone() if value.is_signed else value)
+    drawn = placing.links[link]
     is_surface = placing.postures[link[1]].role == "surface"
     first, second = (drawn.axes[:, 1], -drawn.axes[:, 0]) if is_surface else drawn.axes.T[:2]
     centre = drawn.tail + 0.72 * (drawn.head - drawn.tail)
@@ -374,7 +367,7 @@ def _plate_axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
     for field in _OF_AXES:
         value = getattr(element, field, None)
         if isinstance(value, Parameter):
-            message = shown_angle(value)
+            message = shown_value(value)
             angle = number(value) if message.there else 0.0
             result = _turn(message, placing.at[name], (x, y), angle, size, "axis")
             if not message.there:
@@ -384,7 +377,7 @@ def _plate_axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
 
 
 def _arc(
-    message: ShownAngle, at: Numbers, first: Numbers, second: Numbers, angle: float, size: float
+    message: ShownValue, at: Numbers, first: Numbers, second: Numbers, angle: float, size: float
 ) -> SceneAngle:
     """Return the arc from one direction to another, which are an angle apart."""
     across = second - (second @ first) * first
@@ -394,7 +387,7 @@ def _arc(
 
 
 def _turn(
-    message: ShownAngle,
+    message: ShownValue,
     at: Numbers,
     sides: tuple[Numbers, Numbers],
     angle: float,
