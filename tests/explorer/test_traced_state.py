@@ -115,10 +115,9 @@ def test_the_ellipse_has_its_axis_and_hand(answers):
     assert (dark["poincare"], dark["texts"]) == (None, ["0"] * 4)
     circle = trace(answers, "quartz-quarter-wave")["detectors"]["eye"]["ellipse"]
     assert circle["handedness"] in ("right-handed", "left-handed")
-    assert circle["minor"] == pytest.approx(circle["major"], abs=1e-3)
     assert end_as_json(op.Light([1.0, 0.0, 0.0, 1.0]), None)["ellipse"]["aop"] is None
     line = end_as_json(op.Light([2.0, 0.6, 0.8, 0.0]), None)["ellipse"]
-    assert (line["handedness"], line["minor"]) == ("linear", 0.0)
+    assert line["handedness"] == "linear"
     assert line["aop"] == pytest.approx(np.degrees(0.5 * np.arctan2(0.8, 0.6)))
 
 
@@ -280,24 +279,23 @@ def test_parameters_are_told_with_units_ends_and_words(answers):
     delta = found["delta"]
     assert delta["unit"] == delta["units"][0] == "deg"
     assert {"rad", "mrad"} < {*delta["units"]}
-    told = {"minimum": 0.0, "maximum": 90.0, "default": "53", "slider": [0.0, 90.0, 0.1]}
+    told = {"default": "53", "slider": [0.0, 90.0, 0.1]}
     told |= {"words": [], "bound": False, "array": False, "materials": False}
     assert delta | told == delta
     words = ["horizontal", "vertical", "diagonal", "none"]
     assert (found["filter"]["words"], found["filter"]["default"]) == (words, "none")
-    assert (found["n1"]["maximum"], found["n1"]["units"]) == (None, [])
+    assert found["n1"]["units"] == []
 
 
-def test_choices_cases_detectors_and_links_are_told(answers):
+def test_choices_cases_and_detectors_are_told(answers):
     found = answers.open({"preset": "npgr026"})
     (place,) = found["choices"]
     assert (place["default"], place["words"]) == ("light", ["light", "between", "eye"])
     eight = next(case for case in found["cases"] if case["name"] == "8")
-    assert eight["values"]["delta"] == "48 deg"
-    assert eight["published"] == {"E": [19.1245, 10.9873, -13.0076, -8.70795]}
-    assert (found["detectors"], found["links"][0]) == (["E"], "L.out -> P.in")
+    assert eight.keys() == {"name", "note"}
+    assert found["detectors"] == ["E"]
     moved = answers.open({"preset": "npgr026", "places": {"place": "eye"}})
-    assert (moved["choices"][0]["default"], moved["links"][-1]) == ("eye", "P.out -> E.in")
+    assert moved["choices"][0]["default"] == "eye"
 
 
 @rows("preset", op.preset_names())

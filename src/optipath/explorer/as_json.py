@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, listed
+from optipath.errors import listed
 from optipath.explorer.paths import slider_range
 from optipath.light.quantities import QUANTITIES, LightQuantity, Numbers
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.materials.quantities import plain
-from optipath.paths.energy import energy_along, lights_along
+from optipath.paths.energy import energy_along
 from optipath.paths.usual_range import VISIBLE
 from optipath.plots.light_texts import ellipse_points
 from optipath.values.units import dimension_of, in_unit, units_of
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from optipath.light.light import Light
     from optipath.paths.energy import LightOnLink
     from optipath.paths.path_graph import PathGraph
-    from optipath.values.cases import Case
     from optipath.values.parameters import Parameter
 
 
@@ -51,17 +50,15 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
         "description": path.description,
         "parameters": parameters,
         "choices": choices,
-        "cases": [_case(explored, name, case) for name, case in path.cases.items()],
+        "cases": [{"name": name, "note": case.note} for name, case in path.cases.items()],
         "detectors": [*explored.detectors],
         "quantities": [quantity_as_json(each) for each in QUANTITIES],
-        "links": _links(explored),
     }
 
 
 def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
     name, unit = parameter.name, parameter.unit
     inputs = explored.plan.inputs
-    low, high = inputs.limits.get(name, (parameter.minimum, parameter.maximum))
     default = parameter.default
     text = "" if default is None else parameter.text(default)
     dimension = dimension_of(unit)
@@ -71,8 +68,6 @@ def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
         "help": parameter.help,
         "unit": unit,
         "units": sorted(units, key=lambda other: other != unit),
-        "minimum": plain(low, unit),
-        "maximum": plain(high, unit),
         "slider": slider_range(explored, name),
         "default": text.removesuffix(f" {unit}"),
         "words": [*parameter.all_words],
@@ -81,21 +76,6 @@ def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
         "array": np.ndim(default) > 0 or bool(inputs.tails.get(name)),
         "offered": False,
     }
-
-
-def _case(explored: ExploredPath, name: str, case: Case) -> dict[str, Any]:
-    known = explored.parameters
-    values = {n: known[n].text(v) if n in known else str(v) for n, v in case.values.items()}
-    published = {end: [*stokes] for end, stokes in case.published.items()}
-    return {"name": name, "values": values, "note": case.note, "published": published}
-
-
-def _links(explored: ExploredPath) -> list[str]:
-    """Return the links in the order of travel; none where a value must be given first."""
-    try:
-        return [each.name for each in lights_along(explored.path) if each.end]
-    except OptipathError:
-        return []
 
 
 PRINTED = Numbers(6)
@@ -126,7 +106,6 @@ def link_as_json(name: str, start: str, end: str, light: Light) -> dict[str, Any
         "link": name,
         "start": start,
         "end": end,
-        "stokes": plain(light.stokes),
         "dop": plain(light.dop),
         "poincare": poincare(light),
         "texts": PRINTED.stokes(light),
@@ -156,14 +135,11 @@ def quantity_as_json(quantity: LightQuantity) -> dict[str, Any]:
 
 def _ellipse(light: Light) -> dict[str, Any]:
     points = ellipse_points(light, _POINTS)
-    angle = float(light.ellipticity_angle)
     there = bool(np.isfinite(points).all())
     hand = _HANDS[int(light.handedness)] if there else _UNPOLARISED
     return {
         "points": (points + 0.0).tolist() if there else None,
         "dop": plain(light.dop),
-        "major": float(np.cos(angle)) if there else None,
-        "minor": float(np.abs(np.sin(angle))) if there else None,
         "aop": plain(light.aop, "deg"),
         "handedness": hand,
     }

@@ -94,7 +94,6 @@ class Scene(NamedTuple):
     """
 
     notes: tuple[str, ...]
-    schematic: bool
     unit: float
     nodes: tuple[SceneNode, ...]
     rays: tuple[SceneRay, ...]
@@ -102,48 +101,35 @@ class Scene(NamedTuple):
     frames: dict[str, tuple[Numbers, Numbers]]
     angles: tuple[SceneAngle, ...]
 
-    @property
-    def bounds(self) -> Numbers:
-        """The least and the largest coordinates of nodes and rays, shape (2, 3)."""
-        ends = [point for ray in self.rays for point in (ray.tail, ray.head)]
-        points = np.array([*(node.at for node in self.nodes), *ends])
-        return np.array([points.min(axis=0), points.max(axis=0)])
-
     def as_json(self) -> dict[str, Any]:
-        """Return lists and dictionaries of plain numbers, for `json.dumps`; no NaN among them."""
+        """Return what the page draws, for `json.dumps`; no NaN among it."""
         return {
             "notes": [*self.notes],
-            "schematic": self.schematic,
-            "nodes": [_as_dict(node, "element", "axis") for node in self.nodes],
+            "nodes": [
+                _fields(node, "name", "kind", "at", "normal", "across", "role")
+                for node in self.nodes
+            ],
             "rays": [
                 {
-                    **_as_dict(ray, "tail", "head", "axes", "light"),
+                    **_fields(ray, "name", "ellipse", "leaves", "tap"),
                     "from": _list(ray.tail),
                     "to": _list(ray.head),
-                    "frame": _axes(ray.axes),
                     "intensity": plain(float(ray.light.intensity)),
-                    "dop": plain(float(ray.light.dop)),
                 }
                 for ray in self.rays
             ],
-            "planes": [{"node": n, "corners": _list(c)} for n, c in self.planes.items()],
+            "planes": [{"corners": _list(corners)} for corners in self.planes.values()],
             "frames": [
-                {"port": port, "at": _list(at), **_axes(axes)}
-                for port, (at, axes) in self.frames.items()
+                {"at": _list(at), "x": _list(axes[0]), "y": _list(axes[1])}
+                for at, axes in self.frames.values()
             ],
-            "angles": [_as_dict(angle, "centre", "about") for angle in self.angles],
-            "bounds": _list(self.bounds),
+            "angles": [_fields(angle, "text", "arc", "at") for angle in self.angles],
         }
 
 
-def _as_dict(message: Any, *stored: str) -> dict[str, Any]:
-    """Return what is told but for what is kept."""
-    pairs = [(name, value) for name, value in message._asdict().items() if name not in stored]
-    return {name: _list(v) if isinstance(v, np.ndarray) else v for name, v in pairs}
-
-
-def _axes(axes: Numbers) -> dict[str, Any]:
-    return dict(zip("xyz", _list(axes), strict=True))
+def _fields(record: Any, *names: str) -> dict[str, Any]:
+    values = {name: getattr(record, name) for name in names}
+    return {name: _list(v) if isinstance(v, np.ndarray) else v for name, v in values.items()}
 
 
 def _list(numbers: Numbers) -> Any:
@@ -226,7 +212,6 @@ def scene_of(
     names = dict.fromkeys([*(name for name, _ in wiring.order), *placing.at])
     return Scene(
         notes=(*notes, *placing.notes),
-        schematic=not all(posture.told for posture in placing.postures.values()),
         unit=placing.unit,
         nodes=tuple(_node(placing, name) for name in names),
         rays=rays,
