@@ -84,8 +84,7 @@ def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
         are_texts = isinstance(names, Sequence) and all(isinstance(each, str) for each in names)
         if not are_texts or not len(names) == len({*names}) == count:
             raise OptipathError(
-                f"labels are {shown(labels)}; give {count} for {count} lights, each a name of its "
-                "own"
+                f"labels are {shown(labels)}; give {count} texts, one for each light, all different"
             )
     return dict(zip(names, light if light.ndim else [light], strict=True))
 
