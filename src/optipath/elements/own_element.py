@@ -285,7 +285,7 @@ class RowsFactory:
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function that gives the sixteen numbers of the matrix."""
         what = f"mueller_rows of element class {self.name}"
-        return guarded(what, xp, lambda own: partial(self._numbers, what, own))
+        return guarded(what, lambda own: partial(self._numbers, what, own), xp)
 
     def _numbers(self, what: str, xp: Primitives, *values: Any) -> tuple[Any, ...]:
         paths = np.broadcast_shapes(*map(_shape, values))

@@ -12,7 +12,7 @@ from optipath.elements.vertex_chain import VerticesByAngles, of_chain, pieces_of
 from optipath.errors import FrameError, ValueFault, shown
 from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED
 from optipath.kernels.kernel import Kernel
-from optipath.kernels.primitives import NUMPY, of_module
+from optipath.kernels.primitives import NUMPY, Made, of_module
 from optipath.kernels.vectors import dot, minus
 from optipath.kernels.vertex_chain import LONGEST, SHORTEST, Event, PointsByAngles, points_of
 from optipath.light.frame import Frame
@@ -134,7 +134,8 @@ class Coordinates(NamedTuple):
         points, events, known = self.points, self.events, {"events": len(self.events)}
         if points is not None:
             points, events, known = replace(points, axes=True), (), {"known": True}
-        made: Any = replace(kernel.factory, **known)  # type: ignore[type-var]
+        factory: Any = kernel.factory
+        made = Made(factory.func, **factory.keywords, **known)
         return Operation(replace(kernel, factory=made), (*events, *self._coordinates(points)))
 
     def _coordinates(self, points: PointsByAngles | None) -> tuple[Operand | ResultOf, ...]:

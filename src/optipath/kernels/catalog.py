@@ -15,16 +15,16 @@ from optipath.kernels.carriers.structures import (
     SCALE,
 )
 from optipath.kernels.fresnel import boundary, stable, textbook, variants
-from optipath.kernels.fresnel.boundary import Refracting
+from optipath.kernels.fresnel.boundary import refracting
 from optipath.kernels.fresnel.layers import Stack
-from optipath.kernels.fresnel.variants import AtAngle, AtEvent, Compensated
-from optipath.kernels.kernel import Kernel, KernelFamily, Known, Sloped
-from optipath.kernels.primitives import Factory, WithZero
+from optipath.kernels.fresnel.variants import at_angle, at_event, compensated
+from optipath.kernels.kernel import Kernel, KernelFamily, Known, sloped
+from optipath.kernels.primitives import Factory, Made, with_zero
 from optipath.kernels.vertex_chain import (
-    AxesAtVertex,
-    TurnBetweenPlanes,
+    axes_at_vertex,
     event_at_vertex,
     refraction_at_vertex,
+    turn_between_planes,
 )
 
 Row: TypeAlias = tuple[Factory, tuple[Known, ...], *tuple[Factory, ...]]
@@ -59,13 +59,15 @@ def _fresnel(
     the second in twice the precision.
     """
     known = zip(exact, ((), lossless), strict=False)
-    others: dict[str, list[Row]] = {"compensated": [(Compensated(row[0]), of) for row, of in known]}
-    others |= {name: [(Refracting(row[0]), row[1])] for name, row in textbooks.items()}
+    others: dict[str, list[Row]] = {
+        "compensated": [(Made(compensated, row[0]), of) for row, of in known]
+    }
+    others |= {name: [(Made(refracting, row[0]), row[1])] for name, row in textbooks.items()}
     methods = {"stable": _cheaper_within(f"{what} (stable", exact)}
     for method, rows in others.items():
         pairs = zip(rows, exact, strict=False)
-        sloped = [(Sloped(own[0], stable[0]), own[1]) for own, stable in pairs]
-        methods[method] = _cheaper_within(f"{what} ({method}", sloped)
+        kernels = [(Made(sloped, own[0], stable[0]), own[1]) for own, stable in pairs]
+        methods[method] = _cheaper_within(f"{what} ({method}", kernels)
     return KernelFamily(what, methods)
 
 
@@ -120,19 +122,22 @@ def _at_event(method: str) -> Kernel:
     name, cheaper = f"Fresnel reflection or transmission ({method}", None
     without = [kernel.without[1] for kernel in both if kernel.without]
     if len(without) == len(both):
-        lossless = AtEvent(*without)
+        lossless = Made(at_event, *without)
         # Of (event, n1, n, k, cos, sin), k is the fourth.
         known = _NORMAL_OR_GRAZING if method == "stable" else ()
         cheaper = 3, Kernel(f"{name}, lossless)", BLOCK, lossless, known=known)
     known = _LETS_THROUGH if method == "stable" else ()
-    return Kernel(f"{name})", BLOCK, AtEvent(*both), cheaper, known=known)
+    return Kernel(f"{name})", BLOCK, Made(at_event, *both), cheaper, known=known)
 
 
 def _at_angle(kernel: Kernel) -> Kernel:
     """Return a kernel whose numbers are NaN where its angle is none."""
     without = kernel.without and (kernel.without[0], _at_angle(kernel.without[1]))
     return replace(
-        kernel, name=f"{kernel.name} at a vertex", factory=AtAngle(kernel.factory), without=without
+        kernel,
+        name=f"{kernel.name} at a vertex",
+        factory=Made(at_angle, kernel.factory),
+        without=without,
     )
 
 
@@ -151,7 +156,8 @@ def _from_absorbing(
     """Return what makes ``(n1, k1, n, k, [n0,] cos, sin)``; textbook ones are of amplitudes."""
     if method == "stable":
         return stable, _NORMAL
-    return Sloped(Compensated(stable) if method == "compensated" else amplitude, stable), ()
+    twice = Made(compensated, stable)
+    return Made(sloped, twice if method == "compensated" else amplitude, stable), ()
 
 
 def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
@@ -173,10 +179,10 @@ def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> K
     for method, usual in family.methods.items():
         factory, known = _from_absorbing(method, stable, amplitude)
         name = f"{what} ({method}"
-        lossless = Kernel(f"{name}, lossless)", BLOCK, WithZero(usual.factory, 2))
+        lossless = Kernel(f"{name}, lossless)", BLOCK, Made(with_zero, usual.factory, 2))
         cheaper = 2, usual.without[1] if usual.without else lossless
         in_front = f"{name}, lossless in front)"
-        rarer = Kernel(in_front, BLOCK, WithZero(factory, 1), cheaper, known=known)
+        rarer = Kernel(in_front, BLOCK, Made(with_zero, factory, 1), cheaper, known=known)
         methods[method] = Kernel(f"{name})", BLOCK, factory, (1, rarer), known=known)
     return KernelFamily(what, methods)
 
@@ -234,126 +240,114 @@ TURN = Kernel("turn", ROTATION, filters.turn)
 TURN_BACK = Kernel("turn back", ROTATION, filters.turn_back)
 PLAIN_TURN = Kernel("turn between world frames", ROTATION, filters.given, known=_given(2))
 ALIGN = Kernel("align", ROTATION, filters.align)
-TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
+TURN_BETWEEN_PLANES = Kernel(
+    "turn between planes of incidence", ROTATION, Made(turn_between_planes)
+)
 TURN_AT_REFRACTION = Kernel(
-    "turn between planes beside a refraction", ROTATION, TurnBetweenPlanes(across=True)
+    "turn between planes beside a refraction", ROTATION, Made(turn_between_planes, across=True)
 )
 INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
 REFRACTION = Kernel("refraction at a vertex", None, refraction_at_vertex)
 EVENT_AT_VERTEX = Kernel("event at a vertex", None, event_at_vertex)
-ARRIVING = Kernel("arriving axes", None, AxesAtVertex())
-REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
+ARRIVING = Kernel("arriving axes", None, Made(axes_at_vertex))
+REFLECTED = Kernel("reflected axes", None, Made(axes_at_vertex, leaves=True))
 """What the points of a chain say: angles of incidence, and the axes at the last vertex."""
 
-POLARIZER = Kernel(
-    "polarizer", BLOCK, filters.polarizer, known=(*_NO_S, *_if_any_is_zero("...00", 0, 1))
-)
-RETARDER = Kernel("retarder", BLOCK, filters.retarder, known=(("110..",),))
-ELLIPTICAL_RETARDER = Kernel(
-    "elliptical retarder",
-    FULL,
-    medium.retardance,
-    known=(
-        ("1... .... .... ....",),
-        (".0.. 0... .... ....", 0),
-        ("..0. .... 0... ....", 1),
-        ("...0 .... .... 0...", 2),
-        (".... ...0 ...0 .00.", 0, 1),
-        (".... ..0. .0.0 ..0.", 0, 2),
-        (".... ..00 .0.. .0..", 1, 2),
-    ),
-)
 ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 RESPONSE = Kernel("response", SCALE, filters.given)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
-_DEPOLARIZES = ("1000 0.00 00.0 000.",)
-DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer, known=(_DEPOLARIZES,))
-MIRROR = Kernel("mirror", BLOCK, filters.mirror, known=(("..0.0",),))
-PLAIN_AMPLITUDES = Kernel(
-    "mirror of given amplitudes",
-    BLOCK,
-    textbook.plain_amplitudes,
-    known=(("...00", 0, 1), ("...00", 2, 3), ("....0", 0, 2), ("....0", 1, 3)),
-)
-
-_LOSSLESS = _if_any_is_zero("1", 0, 1)
-ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.Absorption(), known=_LOSSLESS)
-THIRD_OF_ABSORPTION = Kernel(
-    "a third of absorption", SCALE, medium.Absorption(1.0 / 3.0), known=_LOSSLESS
-)
-_UNTURNED = _if_any_is_zero("10", 0, 1)
-ROTATION_ALONG = Kernel(
-    "rotation along the way", ROTATION, medium.Along(filters.turn_back), known=_UNTURNED
-)
-DEXTROROTATION_ALONG = Kernel(
-    "dextrorotation along the way", ROTATION, medium.Along(filters.turn), known=_UNTURNED
-)
-RETARDANCE_ALONG = Kernel(
-    "retardance along the way",
-    BLOCK,
-    medium.Along(filters.retarder),
-    known=(("110..",), *_if_any_is_zero("11010", 0, 1)),
-)
-FARADAY_ROTATION = Kernel(
-    "Faraday rotation",
-    ROTATION,
-    filters.faraday_rotation,
-    known=_if_any_is_zero("10", 0, 1, 2),
-)
-WAVEPLATE = Kernel("wave plate", BLOCK, filters.waveplate, known=(("110..",),))
-POLARIZING_REFLECTION = Kernel(
-    "polarising reflection", BLOCK, filters.polarizing_reflection, known=_NO_S
-)
-POLARIZING_TRANSMISSION = Kernel(
-    "polarising transmission", BLOCK, filters.polarizing_transmission, known=_NO_S
-)
-ABSORPTION_WITH_DICHROISM = Kernel(
-    "absorption beside dichroism", SCALE, medium.Absorption(dichroic=True), known=(("1", 3),)
-)
-THIRD_WITH_DICHROISM = Kernel(
-    "a third of absorption beside dichroism",
-    SCALE,
-    medium.Absorption(1.0 / 3.0, dichroic=True),
-    known=(("1", 3),),
-)
-DICHROISM_ALONG = Kernel(
-    "dichroism along the way",
-    BLOCK,
-    medium.dichroism_along,
-    known=(("110..", 0), ("....0", 1), ("11010", 2)),
-)
-DEPOLARIZATION_ALONG = Kernel(
-    "depolarisation along the way",
-    FULL,
-    medium.depolarization_along,
-    known=(_DEPOLARIZES, *_if_any_is_zero(_IDENTITY, 0, 1)),
-)
-DICHROISM_AND_RETARDANCE_ALONG = Kernel(
-    "dichroism and retardance along the way",
-    FULL,
-    medium.dichroism_and_retardance_along,
-    known=(
-        ("..0. .... 0... ....", 0, 1),
-        (".... ...0 .... .0..", 0, 3),
-        (".... ...0 .... .0..", 1, 2, 4, 5),
-        ("..0. ..0. 00.0 ..0.", 2, 3, 4, 5),
-        (_IDENTITY, 6),
-    ),
-)
-DEPOLARIZING_DICHROISM_ALONG = Kernel(
-    "dichroism and depolarisation along the way",
-    FULL,
-    medium.depolarizing_dichroism_along,
-    known=((_IDENTITY, 7),),
-)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given, known=_given(16))
 
-PRODUCT = Kernel(
-    "intensity at a wavelength", None, filters.product, known=_if_any_is_zero("0", 0, 1)
+
+def _block(name: str, factory: Factory, *known: Known) -> Kernel:
+    return Kernel(name, BLOCK, factory, known=known)
+
+
+_RETARDS, _UNRETARDED = ("110..",), _if_any_is_zero("11010", 0, 1)
+POLARIZER = _block("polarizer", filters.polarizer, *_NO_S, *_if_any_is_zero("...00", 0, 1))
+RETARDER = _block("retarder", filters.retarder, _RETARDS)
+WAVEPLATE = _block("wave plate", filters.waveplate, _RETARDS)
+RETARDANCE_ALONG = _block(
+    "retardance along the way", Made(medium.along, filters.retarder), _RETARDS, *_UNRETARDED
 )
-UNPOLARIZED = Kernel("unpolarized light", None, filters.unpolarized, known=((".000",),))
-POLARIZED = Kernel(
-    "polarized light", None, filters.polarized, known=(("0000", 0), *_given(4, first=1))
+DICHROISM_ALONG = _block(
+    "dichroism along the way", medium.dichroism_along, ("110..", 0), ("....0", 1), ("11010", 2)
 )
+MIRROR = _block("mirror", filters.mirror, ("..0.0",))
+PLAIN_AMPLITUDES = _block(
+    "mirror of given amplitudes",
+    textbook.plain_amplitudes,
+    *(("...00", 0, 1), ("...00", 2, 3), ("....0", 0, 2), ("....0", 1, 3)),
+)
+POLARIZING_REFLECTION = _block("polarising reflection", filters.polarizing_reflection, *_NO_S)
+POLARIZING_TRANSMISSION = _block("polarising transmission", filters.polarizing_transmission, *_NO_S)
+
+
+def _absorption(name: str, share: float = 1.0, *, dichroic: bool = False) -> Kernel:
+    known = (("1", 3),) if dichroic else _if_any_is_zero("1", 0, 1)
+    return Kernel(name, SCALE, Made(medium.absorption, share=share, dichroic=dichroic), known=known)
+
+
+_BESIDE, _THIRD = "absorption beside dichroism", 1.0 / 3.0
+ABSORPTION_ALONG = _absorption("absorption along the way")
+THIRD_OF_ABSORPTION = _absorption("a third of absorption", _THIRD)
+ABSORPTION_WITH_DICHROISM = _absorption(_BESIDE, dichroic=True)
+THIRD_WITH_DICHROISM = _absorption(f"a third of {_BESIDE}", _THIRD, dichroic=True)
+
+
+def _rotation(name: str, factory: Factory, arguments: int = 2) -> Kernel:
+    return Kernel(name, ROTATION, factory, known=_if_any_is_zero("10", *range(arguments)))
+
+
+ROTATION_ALONG = _rotation("rotation along the way", Made(medium.along, filters.turn_back))
+DEXTROROTATION_ALONG = _rotation("dextrorotation along the way", Made(medium.along, filters.turn))
+FARADAY_ROTATION = _rotation("Faraday rotation", filters.faraday_rotation, 3)
+
+
+def _full(name: str, factory: Factory, *known: Known) -> Kernel:
+    return Kernel(name, FULL, factory, known=known)
+
+
+ELLIPTICAL_RETARDER = _full(
+    "elliptical retarder",
+    medium.retardance,
+    ("1... .... .... ....",),
+    (".0.. 0... .... ....", 0),
+    ("..0. .... 0... ....", 1),
+    ("...0 .... .... 0...", 2),
+    (".... ...0 ...0 .00.", 0, 1),
+    (".... ..0. .0.0 ..0.", 0, 2),
+    (".... ..00 .0.. .0..", 1, 2),
+)
+_DEPOLARIZES = "1000 0.00 00.0 000."
+DEPOLARIZER = _full("depolarizer", filters.depolarizer, (_DEPOLARIZES,))
+DEPOLARIZATION_ALONG = _full(
+    "depolarisation along the way",
+    medium.depolarization_along,
+    *((_DEPOLARIZES,), *_if_any_is_zero(_IDENTITY, 0, 1)),
+)
+DICHROISM_AND_RETARDANCE_ALONG = _full(
+    "dichroism and retardance along the way",
+    medium.dichroism_and_retardance_along,
+    ("..0. .... 0... ....", 0, 1),
+    (".... ...0 .... .0..", 0, 3),
+    (".... ...0 .... .0..", 1, 2, 4, 5),
+    ("..0. ..0. 00.0 ..0.", 2, 3, 4, 5),
+    (_IDENTITY, 6),
+)
+DEPOLARIZING_DICHROISM_ALONG = _full(
+    "dichroism and depolarisation along the way",
+    medium.depolarizing_dichroism_along,
+    (_IDENTITY, 7),
+)
+
+
+def _light(name: str, factory: Factory, *known: Known) -> Kernel:
+    return Kernel(name, None, factory, known=known)
+
+
+PRODUCT = _light("intensity at a wavelength", filters.product, *_if_any_is_zero("0", 0, 1))
+UNPOLARIZED = _light("unpolarized light", filters.unpolarized, (".000",))
+POLARIZED = _light("polarized light", filters.polarized, ("0000", 0), *_given(4, first=1))

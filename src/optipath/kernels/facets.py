@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import pi, sqrt
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -63,33 +62,26 @@ def refracted_at_facet(xp: Primitives) -> Callable[..., Vector]:
     return refracted
 
 
-@dataclass(frozen=True)
-class FacetScattering:
-    """Makes ``(alpha_x, alpha_y, k_in, x_in, k_out, x_out, n1, n, [k]) -> sixteen numbers``.
+def facet_scattering(reflection: Kernel, masking: str, xp: Primitives) -> KernelFunction:
+    """Make ``(alpha_x, alpha_y, k_in, x_in, k_out, x_out, n1, n, [k]) -> sixteen numbers``.
 
     The Mueller matrix of the facet between two directions, row by row, times density / (4 tilt^4) G
     / (cos_in cos_out); three numbers of each vector.
     """
+    facet, density = facet_between(xp), beckmann(xp)
+    reflect, cosines = reflection.made_for(xp), masked_cosines(xp, masking)
 
-    reflection: Kernel
-    masking: str
+    def scattered(alpha_x: Any, alpha_y: Any, *numbers: Any) -> tuple[Any, ...]:
+        k_in, x_in, k_out, x_out = points_of(numbers[:12])
+        met = facet(k_in, x_in, k_out, x_out)
+        rows = BLOCK.rows(xp, reflect(*numbers[12:], met.cos, met.sin))
+        # One after the other, so that tiny numbers are not lost together.
+        share = 0.25 * density(*met.slopes, alpha_x, alpha_y) / met.tilt**2 / met.tilt**2
+        share = share / cosines(k_in, k_out, alpha_x, alpha_y)
+        turned = _turned(rows, met.turn_in, met.turn_out)
+        return tuple(share * entry for row in turned for entry in row)
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return the function of the sixteen numbers."""
-        facet, density = facet_between(xp), beckmann(xp)
-        reflect, cosines = self.reflection.made_for(xp), masked_cosines(xp, self.masking)
-
-        def scattered(alpha_x: Any, alpha_y: Any, *numbers: Any) -> tuple[Any, ...]:
-            k_in, x_in, k_out, x_out = points_of(numbers[:12])
-            met = facet(k_in, x_in, k_out, x_out)
-            rows = BLOCK.rows(xp, reflect(*numbers[12:], met.cos, met.sin))
-            # One after the other, so that tiny numbers are not lost together.
-            share = 0.25 * density(*met.slopes, alpha_x, alpha_y) / met.tilt**2 / met.tilt**2
-            share = share / cosines(k_in, k_out, alpha_x, alpha_y)
-            turned = _turned(rows, met.turn_in, met.turn_out)
-            return tuple(share * entry for row in turned for entry in row)
-
-        return scattered
+    return scattered
 
 
 def _turned(rows: Any, turn_in: tuple[Any, Any], turn_out: tuple[Any, Any]) -> Any:

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import numpy as np
 
 from optipath.errors import ComposerError, OptipathError, PathError, did_you_mean, unknown
-from optipath.kernels.primitives import FLOAT, NUMPY, Factory, KernelFunction, Primitives, made
+from optipath.kernels.primitives import (
+    FLOAT,
+    NUMPY,
+    Factory,
+    KernelFunction,
+    Made,
+    Primitives,
+    made,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Mapping, Sequence
@@ -50,7 +58,9 @@ class Kernel:
 
     def made_for(self, primitives: Primitives) -> KernelFunction:
         """Return the function in terms of these primitives, made once and kept."""
-        factory = self.factory if self.of_library else GuardedFactory(self.name, self.factory)
+        factory = self.factory
+        if not self.of_library:
+            factory = Made(guarded, f"kernel '{self.name}'", factory)
         function: KernelFunction = made(factory, primitives)
         return function
 
@@ -109,16 +119,9 @@ class KernelFamily:
         return self.methods[method]
 
 
-@dataclass(frozen=True)
-class Sloped:
-    """A factory with the slopes of another, more exact one; a class, for plans to be pickled."""
-
-    values: Factory
-    slopes: Factory
-
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return the function in terms of these primitives."""
-        return (self.slopes if xp.within else self.values)(xp)
+def sloped(values: Factory, slopes: Factory, xp: Primitives) -> KernelFunction:
+    """Make a kernel with the slopes of another, more exact one."""
+    return (slopes if xp.within else values)(xp)
 
 
 T = TypeVar("T")
@@ -191,7 +194,7 @@ def is_defined_in(package: str, factory: Any) -> bool:
     return str(getattr(maker, "__module__", "")).startswith(package)
 
 
-def guarded(what: str, xp: Primitives, factory: Factory) -> KernelFunction:
+def guarded(what: str, factory: Factory, xp: Primitives) -> KernelFunction:
     """Return a function of a user's own that raises errors of the library alone."""
     if xp is not FLOAT:
         function = called(what, factory, xp)
@@ -213,15 +216,3 @@ def _of_one_path(values: tuple[Any, ...]) -> tuple[Any, ...]:
     if any(isinstance(value, np.ndarray) and value.shape != (1,) for value in values):
         return values
     return tuple(value[0] if isinstance(value, np.ndarray) else value for value in values)
-
-
-@dataclass(frozen=True)
-class GuardedFactory:
-    """Makes the function of a kernel of a user's own."""
-
-    name: str
-    factory: Factory
-
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return what the factory makes, guarded."""
-        return guarded(f"kernel '{self.name}'", xp, self.factory)

@@ -17,7 +17,6 @@ sec. 4.5 and 10.3), as exp - 1 in place of exp, so that small products keep thei
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.exponential import scaled_hyperbolic
@@ -37,30 +36,23 @@ _LEAST = 2.0**-53
 """What a number times this underflows to 0 is close to where digits get lost."""
 
 
-@dataclass(frozen=True)
-class Absorption:
-    """Makes ``(absorption, [dichroism, circular dichroism,] length) -> (t,)``, by Beer and Lambert.
+def absorption(xp: Primitives, *, share: float, dichroic: bool) -> KernelFunction:
+    """Make ``(absorption, [dichroism, circular dichroism,] length) -> (t,)``, by Beer and Lambert.
 
     Over a share of the length, and 0 where digits would underflow; beside dichroism, it is what the
     least absorbed of all states keeps (see `_excess` for its slopes).
     """
+    left, excess, where, fixed = _left(xp), _excess(xp), xp.where, xp.fixed
 
-    share: float = 1.0
-    dichroic: bool = False
+    def attenuate(absorption: Any, length: Any) -> tuple[Any]:
+        return (left(share * (absorption * length)),)
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Make the kernel."""
-        left, excess, where, fixed, share = _left(xp), _excess(xp), xp.where, xp.fixed, self.share
+    def attenuate_least(absorption: Any, linear: Any, circular: Any, length: Any) -> tuple[Any]:
+        least = absorption - excess(linear, circular)
+        # A rounding below 0 is taken away from itself, so that its slope stays.
+        return attenuate(least - where(least < 0.0, fixed(least), 0.0), length)
 
-        def attenuate(absorption: Any, length: Any) -> tuple[Any]:
-            return (left(share * (absorption * length)),)
-
-        def attenuate_least(absorption: Any, linear: Any, circular: Any, length: Any) -> tuple[Any]:
-            least = absorption - excess(linear, circular)
-            # A rounding below 0 is taken away from itself, so that its slope stays.
-            return attenuate(least - where(least < 0.0, fixed(least), 0.0), length)
-
-        return attenuate_least if self.dichroic else attenuate
+    return attenuate_least if dichroic else attenuate
 
 
 def _left(xp: Primitives) -> Callable[[Any], Any]:
@@ -84,16 +76,10 @@ def _excess(xp: Primitives) -> Callable[..., Any]:
     return lambda *dichroism: fixed(size(*dichroism))
 
 
-@dataclass(frozen=True)
-class Along:
-    """Makes ``(rate, length) -> numbers`` of a kernel that takes their product."""
-
-    factory: Factory
-
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Make the kernel."""
-        kernel = self.factory(xp)
-        return lambda rate, length: kernel(rate * length)
+def along(factory: Factory, xp: Primitives) -> KernelFunction:
+    """Make ``(rate, length) -> numbers`` of a kernel that takes their product."""
+    kernel = factory(xp)
+    return lambda rate, length: kernel(rate * length)
 
 
 def dichroism_along(xp: Primitives) -> KernelFunction:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -131,22 +131,24 @@ FLOAT = _primitives(
 )
 
 
-@dataclass(frozen=True)
-class WithZero:
-    """Makes a kernel without the argument at one place; a class, so that plans can be pickled."""
+class Made(partial[KernelFunction]):
+    """A factory out of others, equal to one that is made of equal ones; plans pickle it."""
 
-    factory: Factory
-    place: int
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Made):
+            return NotImplemented
+        mine, its = ((each.func, each.args, each.keywords) for each in (self, other))
+        return mine == its
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Make the kernel in terms of these primitives."""
-        kernel, place = self.factory(xp), self.place
+    def __hash__(self) -> int:
+        return hash((self.func, self.args))
 
-        def with_zero(*argument: Any) -> tuple[Any, ...]:
-            # Not a plain 0: its precision is that of the others.
-            return kernel(*argument[:place], 0.0 * argument[0], *argument[place:])
 
-        return with_zero
+def with_zero(factory: Factory, place: int, xp: Primitives) -> KernelFunction:
+    """Make a kernel without the argument at one place."""
+    kernel = factory(xp)
+    # Not a plain 0: its precision is that of the others.
+    return lambda *argument: kernel(*argument[:place], 0.0 * argument[0], *argument[place:])
 
 
 _SEVERAL = 64.0

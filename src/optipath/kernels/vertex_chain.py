@@ -183,74 +183,54 @@ _NEARLY = 2.0**-26
 """The same below which half of the digits are, so that other knowledge of a plane is better."""
 
 
-@dataclass(frozen=True)
-class OfPlanes:
-    """Makes ``(x0, y0, z0, ...) -> numbers`` of the planes of incidence of a chain.
+def _met(
+    xp: Primitives, *, known: bool = False, events: int = 0
+) -> Callable[..., tuple[list[Leg], list[Vector]]]:
+    """Make ``([event, ...,] x0, y0, z0, ...) -> legs and the x of each vertex``.
 
     The points are all from the start of the chain to the one behind the last vertex.
     """
+    along, planes = legs(xp), axes(xp)
 
-    known: bool = False
-    events: int = 0
+    def met(*numbers: Any) -> tuple[list[Leg], list[Vector]]:
+        vectors = points_of(numbers[events:])
+        # Of n vertices there are n + 2 points.
+        count = len(vectors) // 2 + 1 if known else len(vectors)
+        several = along(vectors[:count], ended(numbers[:events]))
+        return several, planes(several, vectors[count:])
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return the function of coordinates."""
-        raise NotImplementedError
-
-    def met(self, xp: Primitives) -> Callable[..., tuple[list[Leg], list[Vector]]]:
-        """Make ``(x0, y0, z0, ...) -> legs and the x of each vertex``."""
-        along, planes = legs(xp), axes(xp)
-
-        def of(*numbers: Any) -> tuple[list[Leg], list[Vector]]:
-            vectors = points_of(numbers[self.events :])
-            # Of n vertices there are n + 2 points.
-            count = len(vectors) // 2 + 1 if self.known else len(vectors)
-            several = along(vectors[:count], ended(numbers[: self.events]))
-            return several, planes(several, vectors[count:])
-
-        return of
+    return met
 
 
-@dataclass(frozen=True)
-class TurnBetweenPlanes(OfPlanes):
-    """Makes ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices."""
+def turn_between_planes(
+    xp: Primitives, *, across: bool = False, **points: Any
+) -> Callable[..., tuple[Any, Any]]:
+    """Make ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices."""
+    met, aligned = _met(xp, **points), align(xp)
 
-    across: bool = False
+    def turned(*coordinates: Any) -> tuple[Any, Any]:
+        several, (*_, x, new_x) = met(*coordinates)
+        z, along = several[-2].unit, dot(x, new_x)
+        if across:
+            along = along - dot(x, z) * dot(new_x, z)
+        c, s = aligned(along, dot(z, cross(x, new_x)))
+        return c, s
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return the function of coordinates."""
-        met, aligned = self.met(xp), align(xp)
-
-        def turned(*coordinates: Any) -> tuple[Any, Any]:
-            several, planes = met(*coordinates)
-            *_, x, new_x = planes
-            z, along = several[-2].unit, dot(x, new_x)
-            if self.across:
-                along = along - dot(x, z) * dot(new_x, z)
-            c, s = aligned(along, dot(z, cross(x, new_x)))
-            return c, s
-
-        return turned
+    return turned
 
 
-@dataclass(frozen=True)
-class AxesAtVertex(OfPlanes):
-    """Makes ``(x, z)``, six numbers: how light arrives at the last vertex, or leaves it."""
+def axes_at_vertex(xp: Primitives, *, leaves: bool = False, **points: Any) -> KernelFunction:
+    """Make ``(x, z)``, six numbers: how light arrives at the last vertex, or leaves it."""
+    met, sqrt = _met(xp, **points), xp.sqrt
 
-    leaves: bool = False
+    def axes_of(*coordinates: Any) -> tuple[Any, ...]:
+        several, planes = met(*coordinates)
+        x, z = planes[-1], several[-1 if leaves else -2].unit
+        # Next to the normal, where the plane is known to fewer digits than the direction.
+        x = minus(x, times(dot(x, z), z))
+        return *times(1.0 / sqrt(dot(x, x)), x), *z
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return the function of coordinates."""
-        met, sqrt = self.met(xp), xp.sqrt
-
-        def axes_of(*coordinates: Any) -> tuple[Any, ...]:
-            several, planes = met(*coordinates)
-            x, z = planes[-1], several[-1 if self.leaves else -2].unit
-            # Next to the normal, where the plane is known to fewer digits than the direction.
-            x = minus(x, times(dot(x, z), z))
-            return *times(1.0 / sqrt(dot(x, x)), x), *z
-
-        return axes_of
+    return axes_of
 
 
 def axes(xp: Primitives) -> Callable[[Sequence[Leg], Sequence[Vector]], list[Vector]]:

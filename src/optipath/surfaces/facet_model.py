@@ -9,7 +9,8 @@ import numpy as np
 from optipath.elements.fresnel import number_within, parts_of
 from optipath.errors import SurfaceError, unknown
 from optipath.kernels.catalog import REFLECTION
-from optipath.kernels.facets import MASKINGS, FacetScattering
+from optipath.kernels.facets import MASKINGS, facet_scattering
+from optipath.kernels.primitives import Made
 from optipath.light.frame import Frame, vectors
 from optipath.light.mueller import Mueller
 from optipath.materials.index_domains import INDEX, OUTSIDE
@@ -113,7 +114,7 @@ def single_scattering(
     kernel, media = REFLECTION.methods["stable"].specialised(media, _vanishes)
     axes = (before.z, before.x, behind.z, behind.x)
     vectors = (part for axis in axes for part in np.moveaxis(axis, -1, 0))
-    entries = kernel_values(FacetScattering(kernel, masking), *alphas, *vectors, *media)
+    entries = kernel_values(Made(facet_scattering, kernel, masking), *alphas, *vectors, *media)
     matrix = namespace(entries[0]).stack(entries, axis=-1)
     return Mueller.of(matrix.reshape(*matrix.shape[:-1], 4, 4), before, behind)
 

@@ -7,7 +7,6 @@ Optics, sec. 14.2). So it is at every face that is parallel to the first.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import wraps
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -408,32 +407,23 @@ def effective_index(xp: Primitives) -> KernelFunction:
     return index
 
 
-@dataclass(frozen=True)
-class Across:
-    """Makes a kernel of a boundary, and of what becomes of light there; plans pickle it."""
-
-    boundary: Callable[[Primitives], Callable[..., Any]]
-    numbers: Callable[[Primitives], Callable[[Any], tuple[Any, ...]]]
-
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Make the kernel, which takes what the boundary is made of."""
-        boundary, numbers = self.boundary(xp), self.numbers(xp)
-        return wraps(boundary)(lambda *argument: numbers(boundary(*argument)))
+def across(
+    boundary: Callable[[Primitives], Callable[..., Any]],
+    numbers: Callable[[Primitives], Callable[[Any], tuple[Any, ...]]],
+    xp: Primitives,
+) -> KernelFunction:
+    """Make a kernel of a boundary, and of what becomes of light there."""
+    at, becomes = boundary(xp), numbers(xp)
+    return wraps(at)(lambda *argument: becomes(at(*argument)))
 
 
-@dataclass(frozen=True)
-class Refracting:
-    """Makes a kernel that takes an angle before refraction, too, of one that does not."""
+def refracting(factory: Factory, xp: Primitives) -> KernelFunction:
+    """Make ``(n1, n, k, [n0,] cos, sin)``, of an angle before refraction, too."""
+    kernel, refracted = factory(xp), refracted_wave(xp)
 
-    factory: Factory
+    def refract(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        if len(angle) > 2:
+            angle = refracted(n1, n, *angle)[:2]
+        return kernel(n1, n, k, *angle)
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Make ``(n1, n, k, [n0,] cos, sin)``."""
-        kernel, refracted = self.factory(xp), refracted_wave(xp)
-
-        def refracting(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
-            if len(angle) > 2:
-                angle = refracted(n1, n, *angle)[:2]
-            return kernel(n1, n, k, *angle)
-
-        return refracting
+    return refract

@@ -11,15 +11,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.fresnel.boundary import (
-    Across,
     Boundary,
     InhomogeneousBoundary,
     absorbing_boundary,
+    across,
     boundary_from_behind,
     denser_boundary,
     inhomogeneous_boundary,
     lossless_boundary,
 )
+from optipath.kernels.primitives import Made
 from optipath.kernels.vectors import hypotenuse
 
 if TYPE_CHECKING:
@@ -48,9 +49,9 @@ def _reflected(xp: Primitives) -> Callable[[AnyBoundary], tuple[Any, ...]]:
     return lambda at: in_plane(where, first(at)[0], at.slant(where), at.c)
 
 
-stable_reflection = Across(absorbing_boundary, _reflected)
-lossless_reflection = Across(lossless_boundary, _reflected)
-denser_reflection = Across(denser_boundary, _reflected)
+stable_reflection = Made(across, absorbing_boundary, _reflected)
+lossless_reflection = Made(across, lossless_boundary, _reflected)
+denser_reflection = Made(across, denser_boundary, _reflected)
 """Cheaper ones for k = 0, and for n >= n1 besides."""
 
 
@@ -90,8 +91,8 @@ def _let_through_lossless(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...
     return transmit
 
 
-stable_transmission = Across(absorbing_boundary, _let_through)
-lossless_transmission = Across(lossless_boundary, _let_through_lossless)
+stable_transmission = Made(across, absorbing_boundary, _let_through)
+lossless_transmission = Made(across, lossless_boundary, _let_through_lossless)
 
 
 def _lossless(where: Callable[..., Any], Ts: Any, at: Boundary, re: Any) -> Any:
@@ -216,9 +217,9 @@ def _transmitted_within(xp: Primitives) -> Callable[[InhomogeneousBoundary], tup
     return transmitted
 
 
-inhomogeneous_reflection = Across(inhomogeneous_boundary, _reflected)
-inhomogeneous_transmission = Across(inhomogeneous_boundary, _transmitted_within)
-transmission_from_behind = Across(boundary_from_behind, _transmitted_within)
+inhomogeneous_reflection = Made(across, inhomogeneous_boundary, _reflected)
+inhomogeneous_transmission = Made(across, inhomogeneous_boundary, _transmitted_within)
+transmission_from_behind = Made(across, boundary_from_behind, _transmitted_within)
 """Kernels of ``(n1, k1, n, k, [n0,] cos, sin)``."""
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.fresnel.boundary import (
-    Across,
+    across,
     boundary_from_behind,
     inhomogeneous_boundary,
 )
 from optipath.kernels.fresnel.stable import phases_through, sum_squared
+from optipath.kernels.primitives import Made
 from optipath.kernels.vectors import complex_root, hypotenuse
 
 if TYPE_CHECKING:
@@ -238,9 +239,9 @@ def _transmitted_at(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[A
     return transmitted
 
 
-amplitude_inhomogeneous_reflection = Across(inhomogeneous_boundary, _reflected_at)
-amplitude_inhomogeneous_transmission = Across(inhomogeneous_boundary, _transmitted_at)
-amplitude_transmission_from_behind = Across(boundary_from_behind, _transmitted_at)
+amplitude_inhomogeneous_reflection = Made(across, inhomogeneous_boundary, _reflected_at)
+amplitude_inhomogeneous_transmission = Made(across, inhomogeneous_boundary, _transmitted_at)
+amplitude_transmission_from_behind = Made(across, boundary_from_behind, _transmitted_at)
 """Kernels of ``(n1, k1, n, k, [n0,] cos, sin)``."""
 
 
@@ -274,7 +275,7 @@ def _amplitudes_at(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[An
     return amplitudes
 
 
-single_amplitudes = Across(inhomogeneous_boundary, _amplitudes_at)
+single_amplitudes = Made(across, inhomogeneous_boundary, _amplitudes_at)
 
 
 def _along_s(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Complex, Complex]]:

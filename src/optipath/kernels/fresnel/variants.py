@@ -5,7 +5,6 @@ The denominators of a whole path are multiplied, and divided by once, at its end
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, Any
 
@@ -100,46 +99,34 @@ def _powers(xp: Primitives, angle: tuple[Any, ...], at: Boundary) -> tuple[Any, 
     return parted * along.q, parted * along.less, P * P * along.q
 
 
-@dataclass(frozen=True)
-class Compensated:
-    """Makes a kernel in twice the precision; a class, so that plans can be pickled."""
+def compensated(factory: Factory, xp: Primitives) -> KernelFunction:
+    """Make a kernel in twice the precision, which rounds what it returns once."""
+    kernel, sqrt = factory(twice(xp)), DoubleDouble.sqrt
 
-    factory: Factory
+    def rounded_once(*argument: Any) -> tuple[Any, ...]:
+        # Not a plain 0: the rest has the precision of the number.
+        *media, c, s = (DoubleDouble(xp, number, 0.0 * number) for number in argument)
+        # A cosine and a sine that are rounded belong to no angle; their ratio does.
+        length = sqrt(c * c + s * s)
+        numbers = kernel(*media, c / length, s / length)
+        return tuple(n.high if isinstance(n, DoubleDouble) else n for n in numbers)
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Make the kernel, which rounds what it returns once."""
-        kernel, sqrt = self.factory(twice(xp)), DoubleDouble.sqrt
-
-        def rounded_once(*argument: Any) -> tuple[Any, ...]:
-            # Not a plain 0: the rest has the precision of the number.
-            *media, c, s = (DoubleDouble(xp, number, 0.0 * number) for number in argument)
-            # A cosine and a sine that are rounded belong to no angle; their ratio does.
-            length = sqrt(c * c + s * s)
-            numbers = kernel(*media, c / length, s / length)
-            return tuple(n.high if isinstance(n, DoubleDouble) else n for n in numbers)
-
-        return rounded_once
+    return rounded_once
 
 
-@dataclass(frozen=True)
-class AtAngle:
-    """Makes a kernel ``(..., cos, sin) -> (Fs, Fp, B, C, S)`` that is NaN where its cosine is.
+def at_angle(factory: Factory, xp: Primitives) -> KernelFunction:
+    """Make a kernel ``(..., cos, sin) -> (Fs, Fp, B, C, S)`` that is NaN where its cosine is.
 
     What is known of media, such as that they are equal, can make a number of any angle else.
     """
+    kernel = factory(xp)
 
-    factory: Factory
+    def at(*argument: Any) -> tuple[Any, ...]:
+        # That S vanishes where nothing absorbs is known, and C beside it tells all.
+        *numbers, S = kernel(*argument)
+        return *numbers_at(xp, argument[-2], numbers), S
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Make the kernel."""
-        kernel = self.factory(xp)
-
-        def at_angle(*argument: Any) -> tuple[Any, ...]:
-            # That S vanishes where nothing absorbs is known, and C beside it tells all.
-            *numbers, S = kernel(*argument)
-            return *numbers_at(xp, argument[-2], numbers), S
-
-        return at_angle
+    return at
 
 
 def numbers_at(xp: Primitives, cos: Any, numbers: Sequence[Any]) -> list[Any]:
@@ -148,25 +135,17 @@ def numbers_at(xp: Primitives, cos: Any, numbers: Sequence[Any]) -> list[Any]:
     return [xp.where(is_angle, number, nan) for number in numbers]
 
 
-@dataclass(frozen=True)
-class AtEvent:
-    """Makes ``(event, n1, n, [k,] cos, sin) -> (Fs, Fp, B, C, S)`` of an `Event`; NaN as cos is."""
+def at_event(reflection: Kernel, transmission: Kernel, xp: Primitives) -> KernelFunction:
+    """Make ``(event, n1, n, [k,] cos, sin) -> (Fs, Fp, B, C, S)`` of an `Event`; NaN as cos is."""
+    where, through, back = xp.where, transmission.made_for(xp), reflection.made_for(xp)
 
-    reflection: Kernel
-    transmission: Kernel
+    def at(event: Any, *media_and_angle: Any) -> tuple[Any, ...]:
+        refracts, is_behind = event == Event.REFRACTS, event == Event.BEHIND
+        # Of the same media at the same angle, the two have most of their terms in common.
+        pairs = zip(through(*media_and_angle), back(*media_and_angle), strict=True)
+        numbers = [where(refracts, one, other) for one, other in pairs]
+        numbers = numbers_at(xp, media_and_angle[-2], numbers)
+        as_it_is = zip(BLOCK.identity, numbers, strict=True)
+        return tuple(where(is_behind, one, number) for one, number in as_it_is)
 
-    def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return the kernel in terms of these primitives."""
-        where, kernels = xp.where, (self.transmission, self.reflection)
-        through, back = (kernel.made_for(xp) for kernel in kernels)
-
-        def at_event(event: Any, *media_and_angle: Any) -> tuple[Any, ...]:
-            refracts, is_behind = event == Event.REFRACTS, event == Event.BEHIND
-            # Of the same media at the same angle, the two have most of their terms in common.
-            pairs = zip(through(*media_and_angle), back(*media_and_angle), strict=True)
-            numbers = [where(refracts, one, other) for one, other in pairs]
-            numbers = numbers_at(xp, media_and_angle[-2], numbers)
-            as_it_is = zip(BLOCK.identity, numbers, strict=True)
-            return tuple(where(is_behind, one, number) for one, number in as_it_is)
-
-        return at_event
+    return at
