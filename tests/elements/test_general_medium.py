@@ -269,7 +269,7 @@ def test_too_much_dichroism_is_refused_and_the_cure_works():
     with pytest.raises(op.ParameterError, match=r"parameter 'd'.*\(at 1, of 2 paths\)"):
         path.trace(a=1.0, d=[0.5, 1.5])
     rates = {"dichroism": 100.0, "retardance": 120.0, "depolarization": 10.0}
-    with pytest.raises(op.ValueFault, match="put several Media of a part of the length"):
+    with pytest.raises(op.ValueFault, match="put several Media, each a part of it"):
         op.Medium(1.0, 100.0, **rates)
     several = chain([op.Medium(0.25, 100.0, **rates)] * 4, STATE).trace()
     assert several.dop <= 1.0

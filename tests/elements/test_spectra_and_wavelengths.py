@@ -87,9 +87,9 @@ def test_a_line_keeps_its_power_along_other_axes_and_in_streams():
         (np.r_[GRID, GRID[-1:]], "neither rise nor fall"),
         (GRID[[0, 4, 2]], "neither rise nor fall"),
         (GRID[:8].reshape(2, 4), r"of shape \(2, 4\)"),
-        (np.tile(GRID[:4], (2, 1)), "along one axis, with which all else broadcasts"),
+        (np.tile(GRID[:4], (2, 1)), "along one axis"),
         ([], "no row of two or more"),
-        (GRID[:4], "none of its power is there; run it at wavelengths around it"),
+        (GRID[:4], "give some around it"),
     ],
 )
 def test_what_is_no_grid_for_a_line_is_refused(wavelength, sentence):

@@ -212,7 +212,7 @@ REFUSED = [
     (lambda: op.Spectrum(THREE, THREE, outside="near"), "'nearest' and 'linear'"),
     (lambda: sampled(PAIR, [1.0, -1.0]), "is -1 at 1; give numbers of 0 or more"),
     (lambda: sampled([400.0, 500.0], [1.0, 1.0]), "nanometres write '400 nm'"),
-    (lambda: sampled(SAME, [1.0, 1.0]), "400 nm twice"),
+    (lambda: sampled(SAME, [1.0, 1.0]), "as at 400 nm"),
     *((lambda: sampled(PAIR, [1.0, np.nan]), "nan"), (lambda: sampled(PAIR, None), "value")),
     (lambda: sampled(PAIR, [1.0, 1.0], outside=1.0), "give 0.0 where"),
     (lambda: histogram(PAIR, [1.0, 1.0]), "give 1 powers"),

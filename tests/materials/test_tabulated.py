@@ -95,7 +95,7 @@ def test_beyond_its_samples_it_is_the_nearest_one_or_the_line_goes_on():
     "wavelengths, n, words",
     [
         ([500, 600], [1, 2], "500 metres, which is no wavelength of light"),
-        ([5e-7, 5e-7], [1, 2], "has the wavelength 500 nm twice"),
+        ([5e-7, 5e-7], [1, 2], "throughout, as at 500 nm"),
         ([5e-7, 7e-7, 6e-7], [1, 2, 3], "neither rise nor fall throughout"),
         ([5e-7, np.nan], [1, 2], "wavelengths of gold is nan at 1"),
         ([5e-7, 6e-7], [1, np.nan], "n of gold is nan at 1"),
@@ -245,7 +245,7 @@ def test_what_is_wrong_with_a_file_is_told_with_the_line(read, text, words):
         ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
         (NM + "500,1,1\n\n600,1,1\n550,1,1\n", "of gold neither rise nor fall throughout"),
         (NM + "500,1,1\n600,1,1\n500,1,1\n", "of gold neither rise nor fall throughout"),
-        (NM + "500,1,1\n500,1,1\n", "gold has the wavelength 500 nm twice"),
+        (NM + "500,1,1\n500,1,1\n", "of gold neither rise nor fall throughout, as at 500 nm"),
     ],
 )
 def test_numbers_of_a_file_are_judged_as_samples_are(tmp_path, text, words):

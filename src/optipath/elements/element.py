@@ -452,9 +452,8 @@ class Element(Chainable):
                 break
         name = type(self).__name__
         raise PathError(
-            f"element class {name} does not say what changes its sign on the way back; write "
-            f"mirrored: ClassVar[tuple[str, ...]] = ... in it, the fields that do, such as "
-            f"('angle',), or () if none does, or give it a method reversed()"
+            f"element class {name} does not say what changes its sign on the way back; write the "
+            f"fields, mirrored: ClassVar[tuple[str, ...]] = ('angle',), or a method reversed()"
         )
 
 

@@ -309,9 +309,8 @@ class FadingLayer(Agreement):
             f"light would gain in '{self.layer}', of n = {text_of(of_n, n)} and k = "
             f"{text_of(of_k, k)}, at a length of {text_of(of_length, length * 1e9, ' nm')} and a "
             f"wavelength of {text_of(of_wavelength, wavelength * 1e9, ' nm')}: at a face of it "
-            f"R + T is above 1 by {more:.4g}, by interference, so that intensities of waves do not "
-            f"add up in so thin a layer; give a length of at least {1.001 * least * 1e9:.6g} nm, "
-            f"or leave the layer out"
+            f"R + T is above 1 by {more:.4g}, by interference; give a length of at least "
+            f"{1.001 * least * 1e9:.6g} nm, or leave the layer out"
         )
 
     @staticmethod

@@ -267,8 +267,7 @@ class WithinReach(Agreement):
             f"over the length of '{self.owner}', {text_of(self.operands[-1], numbers[-1], ' m')}, "
             f"its dichroism comes to {dichroism:.3g}, and with its retardance, rotation and "
             f"depolarization to {whole:.3g}; beside a depolarization, {LARGEST_DICHROISM:g} and "
-            f"{LARGEST:g} are the most: put several Media of a part of the length one after the "
-            f"other"
+            f"{LARGEST:g} are the most: put several Media, each a part of it, one after the other"
         )
 
 

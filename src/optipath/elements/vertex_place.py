@@ -212,9 +212,8 @@ class EventFits(Agreement):
         allowed = f"turns it by {most:.9g} deg at most" if most else "lets it go straight on"
         return (
             f"light is turned by {deviation(points):.9g} deg at '{self.owner}', but a refraction "
-            f"from n = {before} into n = {behind} {allowed}; move the points, give other "
-            f"media, let it be reflected there (events with R for T, or a specular vertex), or "
-            f"give bad='mask'"
+            f"from n = {before} into n = {behind} {allowed}; move the points, or give other "
+            f"media, an event R in place of T, or bad='mask'"
         )
 
 

@@ -229,9 +229,8 @@ class Vertex(ChainVertex, kind="vertex"):
     def reversed(self) -> NoReturn:
         """Refuse: chains that end at several places have no one way back."""
         raise PathError(
-            f"{self.kind} stands for chains that differ in their events or their lengths, whose "
-            f"ways back begin at several places; make a path of the chains of each kind, with one "
-            f"text for events, and reverse that"
+            f"{self.kind} stands for chains of several kinds, whose ways back begin at several "
+            f"places; make a path of those of each kind, with one text for events, and reverse it"
         )
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:

@@ -40,9 +40,8 @@ def spectral_axis(light: Light) -> tuple[Array, int]:
     if len(axes) != 1:
         many = f"axes {listed([*map(str, axes)])}" if axes else "no axis"
         raise LightError(
-            f"the wavelengths vary along {many} of light of shape {light.shape}, and a spectrum "
-            f"has one; take a part of it, or trace several, "
-            f"wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
+            f"the wavelengths vary along {many} of light of shape {light.shape}, not along one; "
+            f"take a part of it, or trace wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
         )
     (axis,) = axes
     grid = np.moveaxis(every, axis, -1)[(0,) * (every.ndim - 1)]

@@ -354,15 +354,12 @@ class DispersionFormula(Curve):
     extrapolate: str = ""
 
     def __post_init__(self) -> None:
-        if self.formula not in DATABASE_FORMULAS:
+        count = len(self.coefficients)
+        if self.formula not in DATABASE_FORMULAS or not coefficients_fit(self.formula, count):
             numbers = listed([str(number) for number in DATABASE_FORMULAS])
             raise ValueFault(
-                f"{self.label} is by formula {self.formula}; there are the formulas {numbers}"
-            )
-        if not coefficients_fit(self.formula, len(self.coefficients)):
-            raise ValueFault(
-                f"{self.label} has {len(self.coefficients)} coefficients, which formula "
-                f"{self.formula} cannot have"
+                f"{self.label} has {count} coefficients, which formula {self.formula} cannot have; "
+                f"there are the formulas {numbers}"
             )
         span = EVERYWHERE if self.extrapolate else self.known_span
         vars(self).update(span=span, beyond=NEAREST_REQUESTED)

@@ -166,12 +166,10 @@ class Spectrum(Curve):
         -------
         Spectrum
         """
-        result = read_columns(path, [column], unit=unit)
-        values = result.columns[column]
+        read = read_columns(path, [column], unit=unit)
         with told_as(ValueFault, str(path)):
-            return cls.sampled(
-                result.wavelengths, values, outside=outside, name=name or result.title
-            )
+            of_file = read.wavelengths, read.columns[column]
+            return cls.sampled(*of_file, outside=outside, name=name or read.title)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
@@ -337,8 +335,7 @@ class Spectrum(Curve):
         if not 0.0 < start <= end < np.inf:
             raise ValueFault(
                 f"power of {self.label} from {displayed(start, 'nm')} to {displayed(end, 'nm')} is "
-                f"none, or does not end there; give two ends, the lower one first, as in "
-                f"spectrum.power('380 nm', '700 nm')"
+                f"none, or does not end there; give two ends, the lower one first"
             )
         check_known_at(self, np.array([start, end]))
         above = np.inf if high is None else end
@@ -397,8 +394,7 @@ class Spectrum(Curve):
         if missing > _LOST * (missing + float(powers.sum())):
             raise ValueFault(
                 f"{self.label} has a power of {missing:.6g} beyond the bins, which reach from "
-                f"{displayed(low, 'nm')} to {displayed(high, 'nm')}; give edges around all of it, "
-                f"or outside='drop' to leave that out"
+                f"{displayed(low, 'nm')} to {displayed(high, 'nm')}; give more, or outside='drop'"
             )
         least, most = self.kind.extent
         whole = low <= least and most <= high and self.span[1] == np.inf
@@ -454,9 +450,8 @@ class Spectrum(Curve):
 
     def __sub__(self, *_: Any) -> NoReturn:
         raise ValueFault(
-            f"a difference of {self.label} is no spectrum, which is nowhere below 0; compute with "
-            f"its numbers, spectrum.at(wavelengths), and make one of what comes of it, "
-            f"Spectrum(wavelengths, numbers)"
+            f"a difference of {self.label} is no spectrum, which is nowhere below 0; make one of "
+            f"numbers, Spectrum(wavelengths, spectrum.at(wavelengths) - ...)"
         )
 
     __neg__ = __rsub__ = __sub__
@@ -522,8 +517,7 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
     if not 1 <= count <= _MOST or abs(steps - count) > _ROUNDING * count:
         raise ValueFault(
             f"wavelengths {displayed(start, 'nm')} .. {displayed(stop, 'nm')} are {steps:.6g} "
-            f"steps of {displayed(along, 'nm')}; give the lower end first, and a whole number of "
-            f"steps, at most {_MOST}"
+            f"steps of {displayed(along, 'nm')}; give the lower end first, and 1 .. {_MOST} steps"
         )
     first, each = Decimal(repr(start)), Decimal(repr(along))
     results = [float(first + place * each) for place in range(count)]

@@ -419,8 +419,7 @@ def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> Array:
     if fault := grid_fault(wavelengths):
         raise ParameterError(
             f"{called(lines)} has its power in one bin of a grid, and the wavelengths of this run "
-            f"{fault}; give two or more that rise or fall along one axis, with which all else "
-            f"broadcasts, as numbers and not traced: in Python, "
+            f"{fault}; give two or more numbers that rise or fall along one axis, in Python "
             f"path.trace(wavelength=op.wavelengths('380 nm', '700 nm', '40 nm'))"
         )
     edges = grid_edges(wavelengths)
@@ -437,8 +436,7 @@ def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> Array:
         elif line.outside is None and line.power:
             raise ParameterError(
                 f"{called([line])} is outside of the wavelengths of this run, {edges[0]:.10g} nm "
-                f".. {edges[-1]:.10g} nm, so that none of its power is there; run it at "
-                f"wavelengths around it, or give outside=0.0 to the line"
+                f".. {edges[-1]:.10g} nm; give some around it, or outside=0.0 to the line"
             )
     return result[turn]
 
@@ -532,9 +530,8 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
     for kind in (*first.terms, *second.terms):
         if not kind.is_pointwise:
             raise ValueFault(
-                f"{both} cannot be {done} wavelength by wavelength, since {kind.label} is power "
-                f"in bins or at single wavelengths; make samples of it, spectrum.rebin(edges) and "
-                f"then {_RESAMPLE}"
+                f"{both} cannot be {done}, since {kind.label} is power in bins or at single "
+                f"wavelengths; make samples of it, spectrum.rebin(edges) and then {_RESAMPLE}"
             )
         if isinstance(kind, GaussianLine) and sampled and _is_missed(kind, sampled[0]):
             columns.append(kind.peak + kind.width * _AROUND)

@@ -125,15 +125,11 @@ def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
     steps = np.diff(places)
     if (least := float(places.min())) > LONGEST_FIRST:
         return f"the least wavelength of {label} is {too_long(least)}"
-    if (steps > 0.0).all() or (steps < 0.0).all():
+    if not np.any(turns := steps * np.sign(places[-1] - places[0]) <= 0.0):
         return ""
-    if np.any(same := steps == 0.0):
-        return (
-            f"{label} has the wavelength {places[:-1][same][0] * 1e9:.10g} nm twice; give each once"
-        )
     return (
-        f"the wavelengths of {label} neither rise nor fall throughout; sort them, with all that "
-        f"belongs to each"
+        f"the wavelengths of {label} neither rise nor fall throughout, as at "
+        f"{places[:-1][turns][0] * 1e9:.10g} nm; sort them, each once with all that belongs to it"
     )
 
 

@@ -177,7 +177,7 @@ ONE = "cauchy = { coefficients = [1] }"
     [
         (SAMPLES.replace(', unit = "nm"', ""), 'a wavelength has no unit; add unit = "nm"'),
         (SAMPLES.replace('"nm"', '"nmm"'), "did you mean 'nm'?"),
-        (SAMPLES.replace("500", "400"), "400 nm twice"),
+        (SAMPLES.replace("500", "400"), "throughout, as at 400 nm"),
         (SAMPLES.replace("500, ", ""), "2 wavelengths and 3 of n | 2 wavelengths and 3 of k"),
         (SAMPLES.replace("n = [1.5", "n = [-1.5"), ".n: n is -1.5 | 0 or more"),
         (SAMPLES.replace("n = [1.5", "n = [nan"), ".n[0]: nan is no finite"),
@@ -315,7 +315,7 @@ MEANT = "wavelengths: the wavelengths are 400 um .. 500 um, which are most likel
         ('{ sum = ["A"] }', 'write { illuminant = "A" }'),
         ("{ sum = [{ black_body = -3 }] }", "temperature of a black body"),
         (LINES, "'line' must be a text"),
-        ("{ black_body = [300, 400, 500, 600] }", "temperature of a black body must be one"),
+        ("{ black_body = [300, 400, 500, 600] }", "temperature of a black body has shape"),
     ],
 )
 def test_faults_of_tables_of_spectra_are_told(table, sentence, tmp_path):
