@@ -94,7 +94,7 @@ REFUSED = [
     (of_data("tabulated n", "0.4 x"), "has '0.4 x' in row 1; give 2 numbers"),
     ("DATA:\n - type: formula 10\n   coefficients: 1", "no numbers under 'wavelength_range'"),
     ("DATA:\n - type: formula 1\n   range: 1 a", "has no numbers under 'range', but '1 a'"),
-    (FORMULA.replace("formula 2", "formula 12"), "formula 12 cannot have; there are the formulas 1, 2"),
+    (FORMULA.replace("formula 2", "formula 12"), "formula 12 cannot have; there are the form"),
     (FORMULA.replace("0.3 2.5", "2.5 0.3"), "two rising numbers, in micrometres"),
     (FORMULA.replace("103.560653", ""), "6 coefficients, which formula 2 cannot have"),
     (FORMULA.replace("103.560653", "nan"), "has no numbers under 'coefficients'"),
