@@ -217,7 +217,7 @@ def job_of(chunks=4, preset="npgr026", **given):
 def test_blocks_cover_the_grid_have_every_variable_and_are_the_same_when_pickled():
     job, seen = job_of(), np.zeros((10, 6), int)
     for number in range(job.blocks):
-        seen[job.region(number)] += 1
+        seen[job.regions[number]] += 1
     assert job.blocks == 6
     assert np.all(seen == 1)
     found = job.task(5)()

@@ -21,6 +21,7 @@ from optipath.errors import (
     listed,
     no_value,
     shown,
+    told_as,
 )
 from optipath.paths.path_graph import PathGraph
 from optipath.sweeps.datasets import DETECTOR, is_variable
@@ -100,8 +101,7 @@ def grid_of(
         with collecting(faults):
             # Along the dimensions of what it follows from, and nothing is laid out.
             replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
-    if faults:
-        raise ParameterError(*dict.fromkeys(faults))
+    ParameterError.raise_for(faults)
     # What has a unit besides says what it is.
     plain = {
         name: value
@@ -311,21 +311,18 @@ def _coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> Given:
     """Return what ``coords=`` gives, by name."""
     if coords is None:
         return {}
-    try:
+    if isinstance(coords, Mapping) and not _is_labelled(coords, "Dataset", "Coordinates"):
+        return {str(name): (value, "") for name, value in coords.items()}
+    with collecting(faults), told_as(ParameterError):
         if isinstance(coords, (str, PathLike)):
             return _of_file(inputs, coords, faults)
         if _is_labelled(coords, "Dataset", "Coordinates"):
             return _of_dataset(inputs, coords, faults)
-    except OptipathError as fault:
-        faults += [each.under(fault.about) for each in fault.faults]
-        return {}
-    if isinstance(coords, Mapping):
-        return {str(name): (value, "") for name, value in coords.items()}
-    what = f"a {type(coords).__name__}" if hasattr(coords, "columns") else shown(coords)
-    faults.append(
-        f"coords is {what}; give the name of a CSV file, a Dataset, or columns by name, such as "
-        f"{{'delta': [...]}}, and zip= where they vary together"
-    )
+        what = f"a {type(coords).__name__}" if hasattr(coords, "columns") else shown(coords)
+        raise ParameterError(
+            f"coords is {what}; give the name of a CSV file, a Dataset, or columns by name, such "
+            f"as {{'delta': [...]}}, and zip= where they vary together"
+        )
     return {}
 
 
@@ -441,9 +438,7 @@ def _read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
     except OptipathError as fault:
         message: list[str] = []
         for line, text in zip(column.lines, column.texts, strict=True):
-            of_one: list[str] = []
-            with collecting(of_one):
+            with collecting(message, about=f"line {line}"):
                 read([text])
-            message += [f"line {line}: {sentence}" for sentence in of_one]
         message = message or [*fault.faults]
     raise ParameterError(*[f"{column.file}: {sentence}" for sentence in message])

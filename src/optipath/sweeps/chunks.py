@@ -170,6 +170,5 @@ def _sizes_by_name(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
             faults.append(Fault(f"chunks cannot be {shown(size)}", cure))
         elif name in sizes:
             results[name] = sizes[name] if size == -1 else int(size)
-    if faults:
-        raise ParameterError(*dict.fromkeys(faults))
+    ParameterError.raise_for(faults)
     return results

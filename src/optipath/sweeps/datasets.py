@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.answers import Answers
     from optipath.plan.plan import Plan
-    from optipath.sweeps.grid import SweepAxis, SweepGrid
+    from optipath.sweeps.grid import SweepGrid
     from optipath.values.parameters import Parameter
 
 
@@ -57,13 +57,12 @@ def variable_names(grid: SweepGrid, plan: Plan) -> dict[str, str]:
     names = {each.variable: other.get(each.variable, each.variable) for each in QUANTITIES}
     own = dict.fromkeys(names.values(), "variable")
     own |= {DETECTOR: "dimension"} if len(detectors_of(plan)) > 1 else {}
-    if faults := [
+    ParameterError.raise_for(
         f"'{name}' is what a sweep calls a {own[name]} of its own; give the parameter or dimension "
         f"another name, such as '{name}_'"
         for name in taken
         if name in own
-    ]:
-        raise ParameterError(*faults)
+    )
     return names
 
 
@@ -124,7 +123,8 @@ def sweep_dataset(
     data: Callable[[], Mapping[str, Any]],
 ) -> xr.Dataset:
     """Return the Dataset of a sweep; all is checked before the data of its variables are made."""
-    import xarray as xr  # noqa: PLC0415 - not for tables
+    import pandas as pd  # noqa: PLC0415 - not for tables
+    import xarray as xr  # noqa: PLC0415
     from xarray.indexes import PandasIndex  # noqa: PLC0415
 
     names, coords = variable_names(grid, plan), coordinates_of(grid, plan)
@@ -138,7 +138,10 @@ def sweep_dataset(
     for name, (dimension, values, attrs) in coords.items():
         variables[name] = variable = xr.Variable(dimension, values, attrs, fastpath=True)
         if dimension == name:
-            indexes[name] = PandasIndex(values, name, values.dtype)
+            # By default pandas copies what may be a long axis.
+            is_double = values.dtype == np.float64
+            labels = pd.Index(values, copy=False) if is_double else values
+            indexes[name] = PandasIndex(labels, name, values.dtype)
             variables |= indexes[name].create_variables({name: variable})
     # With indexes of one's own nothing is merged, which takes longer than a short run.
     result = xr.Coordinates(variables, indexes).to_dataset().reset_coords(light)
@@ -155,7 +158,7 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dic
         results[DETECTOR] = DETECTOR, np.array(several, object), attrs
     for axis in grid.axes:
         attrs = _attrs(axis.help, axis.unit, axis.shown)
-        results[axis.name] = axis.dimension, _labels(axis), attrs
+        results[axis.name] = axis.dimension, _for_files(axis.shown), attrs
     for name, parameter in plan.inputs.open.items():
         if name not in results:
             base = BASE_UNITS.get(plan.inputs.dimensions.get(name, ""), "")
@@ -169,15 +172,6 @@ def attributes_of(quantity: LightQuantity) -> dict[str, str]:
     """Return the attributes of the variable of a quantity."""
     unit = {"units": quantity.unit} if quantity.unit else {}
     return {"long_name": quantity.name, **unit}
-
-
-def _labels(axis: SweepAxis) -> Any:
-    values = _for_files(axis.shown)
-    if axis.name != axis.dimension or values.dtype != np.float64:
-        return values
-    import pandas as pd  # noqa: PLC0415 - only for what xarray has loaded already
-
-    return pd.Index(values, copy=False)  # By default pandas copies what may be a long axis.
 
 
 def _attrs(name: str, unit: str, value: Any) -> dict[str, str]:

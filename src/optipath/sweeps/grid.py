@@ -70,15 +70,11 @@ class SweepGrid:
 
     def given(self) -> dict[str, Any]:
         """Return what `Plan.run` is given for the grid."""
-        places = list(self.sizes)
         results = dict(self.fixed)
-        used = [axis for axis in self.axes if not axis.idle]
-        is_whole = len(used) == len(self.axes)
-        for axis in used:
-            place = places.index(axis.dimension)
-            behind = len(places) - 1 - place
-            ahead = 0 if is_whole else place  # Dimensions in front may have no other array.
-            results[axis.name] = axis.given.reshape(*(1,) * ahead, -1, *(1,) * behind)
+        for axis in self.axes:
+            if not axis.idle:
+                shape = [-1 if name == axis.dimension else 1 for name in self.sizes]
+                results[axis.name] = axis.given.reshape(shape)
         return results
 
 

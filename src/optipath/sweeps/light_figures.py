@@ -60,8 +60,7 @@ def rounding_of(light: Light) -> npt.NDArray[np.float64]:
 
 def place_of(quantity: object) -> int:
     """Return the place of a quantity among the figures."""
-    if faults := unknown("quantity", quantity, _NAMES):
-        raise ParameterError(*faults)
+    ParameterError.raise_for(unknown("quantity", quantity, _NAMES))
     return _NAMES[quantity]  # type: ignore[index]
 
 

@@ -101,13 +101,12 @@ def _plan_of(recipe: PlanRecipe) -> Plan:
         ) from None
     # What is a script in one process may have another name in the next.
     here = {(each.name, each.digest) for each in _own_classes(path)}
-    if faults := [
+    PathError.raise_for(
         f"element class '{each.name}' of module '{each.module}' is another one on the worker than "
         f"in the path that is swept; define it in a module, and start workers anew after edits"
         for each in recipe.own
         if not each.digest or (each.name, each.digest) not in here
-    ]:
-        raise PathError(*faults)
+    )
     return Composer(**dict(recipe.options)).compose(path)
 
 

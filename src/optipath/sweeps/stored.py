@@ -8,9 +8,9 @@ import shutil
 import sys
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from hashlib import sha256
-from math import prod
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -60,13 +60,12 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
     tell = progress if callable(progress) else progress_line if progress else None
     if place.endswith(".nc"):
         return stored_in_netcdf(job, Path(place), scheduler, tell)
-    store, variables = keep_blocks(job, place, scheduler, tell), {}
+    store, data = keep_blocks(job, place, scheduler, tell), {}
     token = tokenize(store.place, store.seal)
     for name, each in job.arrays.items():
         nothing = np.empty((0,) * len(each.dims), each.dtype)  # Else Dask reads what it is like.
-        data = da.from_array(store.arrays[name], each.chunks, f"{name}-{token}", meta=nothing)  # type: ignore[no-untyped-call]
-        variables[name] = each.dims, data, each.attrs
-    return xr.Dataset(variables, job.dataset.coords, job.dataset.attrs)
+        data[name] = da.from_array(store.arrays[name], each.chunks, f"{name}-{token}", meta=nothing)  # type: ignore[no-untyped-call]
+    return job.dataset.copy(data=data)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,8 +112,7 @@ class SweepJob:
                 tuple(map(str, each.dims)), each.shape, in_blocks, str(each.dtype), each.attrs
             )
         quantities = dict(zip(arrays, QUANTITIES, strict=True))
-        empty = dataset.drop_vars([*dataset.data_vars])
-        return cls(recipe, grid, sizes, quantities, arrays, empty)
+        return cls(recipe, grid, sizes, quantities, arrays, dataset)
 
     @property
     def coords(self) -> dict[str, WholeArray]:
@@ -144,37 +142,29 @@ class SweepJob:
         lines += [f"variable {name}: {each.dtype}" for name, each in self.arrays.items()]
         return "\n".join([*lines, recipe.text])
 
-    @property
-    def _counts(self) -> tuple[int, ...]:
-        """How many blocks there are along each dimension."""
-        return tuple([-(-count // self.sizes[name]) for name, count in self.grid.sizes.items()])
+    @cached_property
+    def regions(self) -> list[tuple[slice, ...]]:
+        """The part of the grid that each block is, in the order of the axes."""
+        cuts = [
+            [slice(start, min(start + size, count)) for start in range(0, count, size)]
+            for size, count in zip(self.sizes.values(), self.grid.shape, strict=True)
+        ]
+        return [*product(*cuts)]
 
     @property
     def blocks(self) -> int:
         """How many blocks there are."""
-        return prod(self._counts)
-
-    def region(self, number: int) -> tuple[slice, ...]:
-        """Return the part of the grid that a block is, counted from 0 in the order of the axes."""
-        places = np.unravel_index(number, self._counts)
-        return tuple(
-            [
-                slice(int(place) * size, min((int(place) + 1) * size, count))
-                for place, size, count in zip(
-                    places, self.sizes.values(), self.grid.shape, strict=True
-                )
-            ]
-        )
+        return len(self.regions)
 
     def places(self, number: int) -> dict[str, tuple[slice, ...]]:
         """Return which part of each variable a block is."""
-        region = self.region(number)
+        region = self.regions[number]
         whole = [slice(None)] * (len(next(iter(self.arrays.values())).dims) - len(region))
         return dict.fromkeys(self.arrays, (*whole, *region))
 
     def task(self, number: int) -> partial[dict[str, npt.NDArray[Any]]]:
         """Return what computes a block, with its own part of the axes: whole ones may be large."""
-        grid = self.grid.part(self.region(number))
+        grid = self.grid.part(self.regions[number])
         return partial(compute_block, number, self.recipe, grid, self.quantities)
 
 

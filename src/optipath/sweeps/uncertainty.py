@@ -59,13 +59,12 @@ def propagate(
     """Return the light of a path with its uncertainty; see `PathGraph.propagate`."""
     plan = path.compose()
     check_named("propagate", unnamed, plan.inputs.open)
-    if clashes := [
+    ParameterError.raise_for(
         f"'{name}' is an option of propagate() and a parameter of this path; path.bind({name}=...) "
         f"gives the parameter its value"
         for name in plan.inputs.open
         if name in OPTIONS
-    ]:
-        raise ParameterError(*clashes)
+    )
     exact, uncertain, faults = _read_all(plan.inputs, arguments)
     # A value whose uncertainty cannot be read is one of them all the same.
     names = [n for n, value in arguments.items() if isinstance(value, tuple) and n not in exact]
@@ -74,8 +73,7 @@ def propagate(
     end, ends = "", tuple(plan.program.detectors)
     with collecting(faults):
         end = only("detector", ends, f"propagate(detector='{ends[0]}', ...)", detector)
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     request = plan if composer is None else path.plan_by(composer)
     values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in arguments.items()}
     request.inputs.warn_of_angles(values)
@@ -170,8 +168,7 @@ def _read(inputs: Inputs, name: str, arguments: tuple[Any, ...]) -> UncertainVal
         )
     value, sigma = _value(inputs, name, arguments[0]), _sigma(inputs, name, arguments[1])
     shapes = {f"the values of '{name}'": value.shape, "their uncertainties": sigma.shape}
-    if faults := broadcast_fault(shapes):
-        raise ParameterError(*faults)
+    ParameterError.raise_for(broadcast_fault(shapes))
     value, sigma = np.broadcast_arrays(value, sigma)
     low, high = inputs.limits[name]
     return UncertainValue(name, value, sigma, low, high, inputs.open[name].unit)
