@@ -66,7 +66,6 @@ class DerivedVariable(BackendArray):
         self.quantity, self.plan, self.grid, self.lights = quantity, plan, grid, lights
         self.shape = (*[len(lights)] * (len(lights) > 1), *grid.shape)
         self.dtype = np.dtype(plan.dtype)
-        self.token = uuid4().hex
 
     def __getitem__(self, key: indexing.ExplicitIndexer) -> Any:
         basic = indexing.IndexingSupport.BASIC
@@ -96,7 +95,7 @@ class DerivedVariable(BackendArray):
 
     def __dask_tokenize__(self) -> tuple[str, str]:
         # Random, as its numbers may not be there yet.
-        return type(self).__name__, self.token
+        return type(self).__name__, vars(self).setdefault("token", uuid4().hex)
 
 
 def derived(quantity: LightQuantity, *of: Any) -> Any:
