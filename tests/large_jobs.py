@@ -8,9 +8,9 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 
 from optipath.errors import ValueFault
-from optipath.sweeps.store import StoredArray, WholeArray
 
 ROWS, COLUMNS = 4, 3
 
@@ -32,24 +32,23 @@ class Powers:
         return f"{self.title}\nblocks = {self.blocks}"
 
     @property
-    def arrays(self):
-        shape = (ROWS * self.blocks, COLUMNS)
+    def dataset(self):
         attrs = {"units": "1", "long_name": "power"}
-        return {
-            "power": StoredArray(("number", "exponent"), shape, (2, COLUMNS), attrs=attrs),
-            "total": StoredArray(("block",), (self.blocks,), (1,), "int64"),
-        }
+        return xr.Dataset(
+            {
+                "power": (("number", "exponent"), np.zeros((ROWS * self.blocks, COLUMNS)), attrs),
+                "total": ("block", np.zeros(self.blocks, "int64")),
+            },
+            {
+                "number": ("number", np.arange(float(ROWS * self.blocks)), {"units": "m"}),
+                "called": ("exponent", np.array(["itself", "square", "cube"])),
+            },
+            {"path": "[vertices]\n", "title": self.title},
+        )
 
     @property
-    def coords(self):
-        return {
-            "number": WholeArray(("number",), np.arange(float(ROWS * self.blocks)), {"units": "m"}),
-            "called": WholeArray(("exponent",), np.array(["itself", "square", "cube"])),
-        }
-
-    @property
-    def attrs(self):
-        return {"path": "[vertices]\n", "title": self.title}
+    def chunks(self):
+        return {"power": (2, COLUMNS), "total": (1,)}
 
     def places(self, number):
         rows = slice(ROWS * number, ROWS * (number + 1))

@@ -221,7 +221,7 @@ def test_blocks_cover_the_grid_have_every_variable_and_are_the_same_when_pickled
     assert job.blocks == 6
     assert np.all(seen == 1)
     found = job.task(5)()
-    assert found.keys() == job.arrays.keys() == job.places(5).keys()
+    assert found.keys() == job.chunks.keys() == job.places(5).keys()
     assert [*job.places(5).values()] == [(slice(8, 10), slice(4, 6))] * len(found)
     assert {each.shape for each in found.values()} == {(2, 2)}
     there = pickle.loads(pickle.dumps(job))

@@ -51,13 +51,12 @@ def keep_blocks(
     >>> from tempfile import TemporaryDirectory
     >>> from types import SimpleNamespace
     >>> import numpy as np
-    >>> from optipath.sweeps.store import StoredArray
+    >>> import xarray as xr
     >>> job = SimpleNamespace(
     ...     identity="squares of 0 to 5, in blocks of 2",
     ...     blocks=3,
-    ...     arrays={"square": StoredArray(("number",), (6,), (2,))},
-    ...     coords={},
-    ...     attrs={"title": "squares"},
+    ...     dataset=xr.Dataset({"square": ("number", np.zeros(6))}, attrs={"title": "squares"}),
+    ...     chunks={"square": (2,)},
     ... )
     >>> job.places = lambda block: {"square": (slice(2 * block, 2 * block + 2),)}
     >>> job.task = lambda block: lambda: {"square": np.arange(2.0 * block, 2 * block + 2) ** 2}

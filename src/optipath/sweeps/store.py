@@ -15,9 +15,10 @@ from functools import cached_property
 from hashlib import sha256
 from itertools import zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
+import xarray as xr
 import zarr
 from fsspec.core import url_to_fs
 from zarr.errors import ContainsArrayError
@@ -39,24 +40,6 @@ _OTHER_PLACE = "take another name, or delete it"
 _RECORD, _MARKS, _BEGINNING = "blocks", "blocks/done", "beginning"
 
 
-class StoredArray(NamedTuple):
-    """An array that blocks fill, part by part; each chunk belongs to one block."""
-
-    dims: tuple[str, ...]
-    shape: tuple[int, ...]
-    chunks: tuple[int, ...]
-    dtype: str = "float64"
-    attrs: Mapping[str, Any] = {}
-
-
-class WholeArray(NamedTuple):
-    """A small array that is written when the store is made, such as a coordinate."""
-
-    dims: tuple[str, ...]
-    values: npt.NDArray[Any]
-    attrs: Mapping[str, Any] = {}
-
-
 class BlockJob(Protocol):
     """A large job, cut into blocks that are computed each by itself, in any order."""
 
@@ -69,16 +52,12 @@ class BlockJob(Protocol):
         """How many there are."""
 
     @property
-    def arrays(self) -> Mapping[str, StoredArray]:
-        """What is kept, by name."""
+    def dataset(self) -> xr.Dataset:
+        """What is kept: variables of any numbers, which blocks fill, coordinates and attributes."""
 
     @property
-    def coords(self) -> Mapping[str, WholeArray]:
-        """What is known before, by name: the coordinates of the arrays."""
-
-    @property
-    def attrs(self) -> Mapping[str, Any]:
-        """What the whole is, as JSON can hold it."""
+    def chunks(self) -> Mapping[str, tuple[int, ...]]:
+        """The chunks of each variable, of which each belongs to one block."""
 
     def places(self, number: int) -> Mapping[str, tuple[slice, ...]]:
         """Return which part of each array a block is."""
@@ -242,9 +221,8 @@ class BlockStore:
     def beginning(self, job: BlockJob) -> str:
         """Return a digest of the files that no block writes again, empty where one is lost."""
         files, place = url_to_fs(self.place)
-        names = [
-            f"{name}/{'.'.join('0' * len(each.dims) or '0')}" for name, each in job.coords.items()
-        ]
+        coords = job.dataset.coords.variables.items()
+        names = [f"{name}/{'.'.join('0' * each.ndim or '0')}" for name, each in coords]
         digest = sha256(self.seal.encode())
         with suppress(OSError):
             there = files.cat([f"{place}/{name}" for name in (".zmetadata", *names)])
@@ -255,13 +233,13 @@ class BlockStore:
 
     def _check_arrays(self, job: BlockJob, beginning: Any) -> None:
         """Refuse lost arrays, and coordinates that are damaged, which no block writes again."""
-        damaged = sorted(job.arrays.keys() - self.arrays.keys())
+        damaged = sorted(job.chunks.keys() - self.arrays.keys())
         # To read them one by one takes longer, and is for files that somebody has written anew.
         same = beginning and beginning == self.beginning(job)
-        for name, whole in job.coords.items() if not same else ():
-            there, given = _read(self.arrays[name], ...), whole.values
+        for name, each in job.dataset.coords.variables.items() if not same else ():
+            there, given = _read(self.arrays[str(name)], ...), _as_stored(each).to_numpy()
             if there is None or there.dtype != given.dtype or there.tobytes() != given.tobytes():
-                damaged.append(name)
+                damaged.append(str(name))
         if damaged:
             raise JobError(f"'{damaged[0]}' of the store '{self.place}' is damaged; {_OTHER_PLACE}")
 
@@ -298,10 +276,11 @@ def _is_free(place: str) -> bool:
 
 def _record_of(job: BlockJob) -> dict[str, Any]:
     """Return all that two jobs have in common if blocks of one may stand for those of the other."""
+    variables = job.dataset.variables
     arrays = [
-        f"array {name}: {list(each.dims)}, {list(each.shape)} in chunks of {list(each.chunks)}, "
-        f"{each.dtype}"
-        for name, each in job.arrays.items()
+        f"array {name}: {list(variables[name].dims)}, {list(variables[name].shape)} in chunks of "
+        f"{list(chunks)}, {variables[name].dtype}"
+        for name, chunks in job.chunks.items()
     ]
     lines = [*job.identity.splitlines(), f"blocks: {job.blocks}", *arrays]
     return {"format": FORMAT, "lines": lines}
@@ -309,34 +288,39 @@ def _record_of(job: BlockJob) -> dict[str, Any]:
 
 def _make(store: BlockStore, job: BlockJob) -> str:
     """Write the arrays of a job and its coordinates; the array of marks last."""
-    group = store.group
+    group, dataset = store.group, job.dataset
     # Coordinates that do not bear the name of a dimension are told apart by this attribute.
-    others = [name for name, each in job.coords.items() if each.dims != (name,)]
-    group.attrs.update({**job.attrs, **({"coordinates": " ".join(others)} if others else {})})
-    for name, stored in job.arrays.items():
-        _create(group, name, stored)
-    for name, whole in job.coords.items():
-        shape = whole.values.shape
-        stored = StoredArray(whole.dims, shape, shape, whole.values.dtype.str, whole.attrs)
-        _create(group, name, stored)[...] = whole.values
+    others = [str(name) for name, each in dataset.coords.variables.items() if each.dims != (name,)]
+    group.attrs.update(dataset.attrs | ({"coordinates": " ".join(others)} if others else {}))
+    for name, chunks in job.chunks.items():
+        _create(group, name, dataset.variables[name], chunks)
+    for coordinate, each in dataset.coords.variables.items():
+        whole = _as_stored(each)
+        _create(group, str(coordinate), whole, whole.shape)[...] = whole.to_numpy()
     # Version 2 of the format has all metadata at one place, and words, in its specification.
     zarr.consolidate_metadata(group.store, zarr_format=2)
-    attrs = {_BEGINNING: store.beginning(job)}
-    _create(
-        group, _MARKS, StoredArray(("block", "byte"), (job.blocks, 32), (1, 32), "uint8", attrs)
-    )
-    return attrs[_BEGINNING]
+    result = store.beginning(job)
+    none = np.broadcast_to(np.uint8(0), (job.blocks, 32))
+    marks = xr.Variable(("block", "byte"), none, {_BEGINNING: result})
+    _create(group, _MARKS, marks, (1, 32))
+    return result
 
 
-def _create(group: zarr.Group, name: str, stored: StoredArray) -> Any:
-    dtype = np.dtype(stored.dtype)
+def _as_stored(coordinate: xr.Variable) -> xr.Variable:
+    """Return words as words of a fixed length, which stores have."""
+    values = coordinate.to_numpy()
+    whole = values.astype(str) if values.dtype.kind == "O" else values
+    return xr.Variable(coordinate.dims, whole, coordinate.attrs)
+
+
+def _create(group: zarr.Group, name: str, like: xr.Variable, chunks: tuple[int, ...]) -> Any:
     # xarray takes a fill value for one that is missing, which a number must not be.
-    fill = np.nan if dtype.kind in "fc" else 0 if name == _MARKS else None
-    chunks = tuple([max(size, 1) for size in stored.chunks])
+    fill = np.nan if like.dtype.kind in "fc" else 0 if name == _MARKS else None
+    chunks = tuple([max(size, 1) for size in chunks])
     with suppress(ContainsArrayError):  # Another run is making the same.
-        group.create_array(name, shape=stored.shape, chunks=chunks, dtype=dtype, fill_value=fill)
+        group.create_array(name, shape=like.shape, chunks=chunks, dtype=like.dtype, fill_value=fill)
     array = group[name]
-    array.attrs.update({**stored.attrs, "_ARRAY_DIMENSIONS": list(stored.dims)})
+    array.attrs.update({**like.attrs, "_ARRAY_DIMENSIONS": list(map(str, like.dims))})
     return array
 
 

@@ -25,7 +25,6 @@ from optipath.sweeps.blocks import keep_blocks
 from optipath.sweeps.chunks import chunk_sizes, run_block
 from optipath.sweeps.datasets import detectors_of, sweep_dataset
 from optipath.sweeps.plan_recipe import PlanRecipe
-from optipath.sweeps.store import StoredArray, WholeArray
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -62,9 +61,10 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
         return stored_in_netcdf(job, Path(place), scheduler, tell)
     store, data = keep_blocks(job, place, scheduler, tell), {}
     token = tokenize(store.place, store.seal)
-    for name, each in job.arrays.items():
-        nothing = np.empty((0,) * len(each.dims), each.dtype)  # Else Dask reads what it is like.
-        data[name] = da.from_array(store.arrays[name], each.chunks, f"{name}-{token}", meta=nothing)  # type: ignore[no-untyped-call]
+    for name, chunks in job.chunks.items():
+        array = store.arrays[name]
+        nothing = np.empty((0,) * len(chunks), array.dtype)  # Else Dask reads what it is like.
+        data[name] = da.from_array(array, chunks, f"{name}-{token}", meta=nothing)  # type: ignore[no-untyped-call]
     return job.dataset.copy(data=data)
 
 
@@ -72,16 +72,15 @@ def stored_sweep(job: SweepJob, place: str, scheduler: Any, *, progress: bool | 
 class SweepJob:
     """A sweep that is computed block by block and kept; see `BlockJob`.
 
-    ``sizes`` says how many values a block has along each dimension of the grid, ``dataset`` has the
-    coordinates and attributes.
+    ``sizes`` says how many values a block has along each dimension of the grid.
     """
 
     recipe: PlanRecipe
     grid: SweepGrid
     sizes: Mapping[str, int]
     quantities: Mapping[str, LightQuantity]
-    arrays: Mapping[str, StoredArray]
     dataset: xr.Dataset
+    chunks: Mapping[str, tuple[int, ...]]
 
     @classmethod
     def of(
@@ -105,41 +104,22 @@ class SweepJob:
                 "stores have no numbers of dtype 'longdouble'; leave store= out, or give "
                 "composer=op.Composer(dtype='float64')"
             )
-        arrays = {}
-        for name, each in dataset.data_vars.items():
-            in_blocks = tuple([sizes.get(str(dim), size) for dim, size in each.sizes.items()])
-            arrays[str(name)] = StoredArray(
-                tuple(map(str, each.dims)), each.shape, in_blocks, str(each.dtype), each.attrs
-            )
-        quantities = dict(zip(arrays, QUANTITIES, strict=True))
-        return cls(recipe, grid, sizes, quantities, arrays, dataset)
-
-    @property
-    def coords(self) -> dict[str, WholeArray]:
-        """The coordinates, by name."""
-        return {
-            str(name): WholeArray(
-                tuple(map(str, each.dims)), _as_stored(each.to_numpy()), each.attrs
-            )
-            for name, each in self.dataset.coords.items()
-        }
-
-    @property
-    def attrs(self) -> dict[str, Any]:
-        """Those of the Dataset."""
-        return self.dataset.attrs
+        quantities = dict(zip(map(str, dataset.data_vars), QUANTITIES, strict=True))
+        in_blocks = (*[detectors] * (detectors > 1), *sizes.values())
+        chunked = dict.fromkeys(quantities, in_blocks)
+        return cls(recipe, grid, sizes, quantities, dataset, chunked)
 
     @property
     def identity(self) -> str:
         """All of what is computed, a line each, so that the first other one can be told."""
-        recipe, grid = self.recipe, self.grid
-        lines = [f"a sweep by optipath {self.attrs['optipath_version']}, layout {LAYOUT}"]
+        recipe, grid, variables = self.recipe, self.grid, self.dataset.variables
+        lines = [f"a sweep by optipath {self.dataset.attrs['optipath_version']}, layout {LAYOUT}"]
         lines += [f"option {name}: {value!r}" for name, value in recipe.options]
         lines += [f"element class {' '.join(each)}" for each in recipe.own]
         lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
         lines += [f"axis {axis.name}: {_axis_text(axis)}" for axis in grid.axes]
         lines += [f"chunks of {name}: {size}" for name, size in self.sizes.items()]
-        lines += [f"variable {name}: {each.dtype}" for name, each in self.arrays.items()]
+        lines += [f"variable {name}: {variables[name].dtype}" for name in self.quantities]
         return "\n".join([*lines, recipe.text])
 
     @cached_property
@@ -159,8 +139,8 @@ class SweepJob:
     def places(self, number: int) -> dict[str, tuple[slice, ...]]:
         """Return which part of each variable a block is."""
         region = self.regions[number]
-        whole = [slice(None)] * (len(next(iter(self.arrays.values())).dims) - len(region))
-        return dict.fromkeys(self.arrays, (*whole, *region))
+        whole = [slice(None)] * (self.dataset.S0.ndim - len(region))
+        return dict.fromkeys(self.quantities, (*whole, *region))
 
     def task(self, number: int) -> partial[dict[str, npt.NDArray[Any]]]:
         """Return what computes a block, with its own part of the axes: whole ones may be large."""
@@ -181,11 +161,6 @@ def compute_block(
 
 LAYOUT = 1
 """The version of what a store of a sweep has in it."""
-
-
-def _as_stored(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """Return words as words of a fixed length, which stores have."""
-    return values.astype(str) if values.dtype.kind == "O" else values
 
 
 def _single(grid: SweepGrid, name: str) -> str:
@@ -253,7 +228,7 @@ def stored_in_netcdf(
 def _write(file: Path, store: Any, identity: str, job: SweepJob) -> None:
     """Write what a store holds beside the place of a file, and put it there."""
     draft = file.with_name(f".{secrets.token_hex(8)}.draft")
-    encoding = {name: {"chunksizes": each.chunks} for name, each in job.arrays.items()}
+    encoding = {name: {"chunksizes": chunks} for name, chunks in job.chunks.items()}
     try:
         with xr.open_zarr(store) as stored:
             message = stored.assign_attrs({_IDENTITY: identity})

@@ -10,6 +10,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
 from optipath.errors import SurfaceError
 from optipath.surfaces.energy_shares import processors
@@ -17,7 +18,6 @@ from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, PartSums, SensedBeam
 from optipath.surfaces.walk.code import digest_of
 from optipath.sweeps.blocks import active_client, keep_blocks
-from optipath.sweeps.store import StoredArray, WholeArray
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -48,6 +48,7 @@ def _roughness_text(roughness: Roughness) -> str:
 
 
 _PIXELS = ("side", "y", "x")
+_DIMENSIONS = ("part", *_PIXELS, "wavelength", "number")
 _SUMS = "sum over photons of the Mueller matrix, row by row, and of the light without polarisation"
 
 
@@ -84,39 +85,39 @@ class ChunkJob:
         return -(-self.photons // CHUNK)
 
     @property
-    def arrays(self) -> dict[str, StoredArray]:
+    def dataset(self) -> xr.Dataset:
         """The fields of `PartSums`, with the chunks before all other dimensions."""
+        shape, place = self.seen.shape, self.seen.sensor.coordinates
+
+        def stored(what: str, dims: tuple[str, ...], shape: Any, kind: str = "int64") -> Any:
+            numbers = np.broadcast_to(np.zeros((), kind), (self.blocks, *shape))
+            return ("chunk", *dims), numbers, {"long_name": what, "units": "1"}
+
+        return xr.Dataset(
+            {
+                "sums": stored(_SUMS, _DIMENSIONS, shape, "float64"),
+                "counts": stored("photons of a pixel", _PIXELS, shape[1:4]),
+                "photons": stored("photons of a part", ("part",), shape[:1]),
+            },
+            {
+                "side": ("side", np.array(self.seen.sides)),
+                "y": ("y", place, {"units": "1"}),
+                "x": ("x", place, {"units": "1"}),
+                "wavelength": ("wavelength", self.wavelengths, {"units": "m"}),
+                "number": ("number", np.array(NUMBERS[self.seen.polarized])),
+            },
+            {"title": "chunks of photons of a measurement; optipath.measure adds them up"},
+        )
+
+    @property
+    def chunks(self) -> dict[str, tuple[int, ...]]:
+        """The chunks of each: sums part by part, since codecs take no more than 2 GiB at a time."""
         shape = self.seen.shape
-
-        def stored(what: str, dims: tuple[str, ...], *shapes: Any, kind: str = "int64") -> Any:
-            whole, part = (self.blocks, *shapes[0]), (1, *shapes[-1])
-            about = {"long_name": what, "units": "1"}
-            return StoredArray(("chunk", *dims), whole, part, kind, about)
-
-        # Part by part, since codecs take no more than 2 GiB at a time.
-        dims, part = ("part", *_PIXELS, "wavelength", "number"), (1, *shape[1:])
         return {
-            "sums": stored(_SUMS, dims, shape, part, kind="float64"),
-            "counts": stored("photons of a pixel", _PIXELS, shape[1:4]),
-            "photons": stored("photons of a part", ("part",), shape[:1]),
+            "sums": (1, 1, *shape[1:]),
+            "counts": (1, *shape[1:4]),
+            "photons": (1, *shape[:1]),
         }
-
-    @property
-    def coords(self) -> dict[str, WholeArray]:
-        """Where pixels are, and what is summed up."""
-        place = self.seen.sensor.coordinates
-        return {
-            "side": WholeArray(("side",), np.array(self.seen.sides)),
-            "y": WholeArray(("y",), place, {"units": "1"}),
-            "x": WholeArray(("x",), place, {"units": "1"}),
-            "wavelength": WholeArray(("wavelength",), self.wavelengths, {"units": "m"}),
-            "number": WholeArray(("number",), np.array(NUMBERS[self.seen.polarized])),
-        }
-
-    @property
-    def attrs(self) -> dict[str, Any]:
-        """What the store is."""
-        return {"title": "chunks of photons of a measurement; optipath.measure adds them up"}
 
     def places(self, number: int) -> dict[str, tuple[slice, ...]]:
         """Return which part of each array a chunk is."""
