@@ -517,7 +517,7 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
     if not 1 <= count <= _MOST or abs(steps - count) > _ROUNDING * count:
         raise ValueFault(
             f"wavelengths {displayed(start, 'nm')} .. {displayed(stop, 'nm')} are {steps:.6g} "
-            f"steps of {displayed(along, 'nm')}; give the lower end first, and 1 .. {_MOST} steps"
+            f"steps of {displayed(along, 'nm')}; begin low, and give a whole number up to {_MOST}"
         )
     first, each = Decimal(repr(start)), Decimal(repr(along))
     results = [float(first + place * each) for place in range(count)]
