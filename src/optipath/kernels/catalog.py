@@ -91,12 +91,14 @@ def _cheaper_within(name: str, rows: Sequence[Row]) -> Kernel:
     return kernel
 
 
+_LOSSLESS_POWERS = Made(variants.lossless_powers, boundary.lossless_boundary)
+_DENSER_POWERS = Made(variants.lossless_powers, boundary.denser_boundary)
 REFLECTION = _fresnel(
     "Fresnel reflection",
     [
         (stable.stable_reflection, _NORMAL_OR_GRAZING, variants.reflected_powers),
-        (stable.lossless_reflection, _NORMAL_OR_GRAZING, variants.lossless_powers),
-        (stable.denser_reflection, (*_NORMAL_OR_GRAZING, *_NO_S), variants.denser_powers),
+        (stable.lossless_reflection, _NORMAL_OR_GRAZING, _LOSSLESS_POWERS),
+        (stable.denser_reflection, (*_NORMAL_OR_GRAZING, *_NO_S), _DENSER_POWERS),
     ],
     amplitude=(textbook.amplitude_reflection, (_NO_S_IF_LOSSLESS,)),
     textbook=(textbook.textbook_reflection, ()),
@@ -188,9 +190,7 @@ def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> K
 
 
 REFLECTION_FROM_ABSORBING = _from_front(
-    REFLECTION,
-    stable.inhomogeneous_reflection,
-    textbook.amplitude_inhomogeneous_reflection,
+    REFLECTION, stable.inhomogeneous_reflection, textbook.amplitude_inhomogeneous_reflection
 )
 TRANSMISSION_FROM_ABSORBING = _from_front(
     TRANSMISSION,
@@ -198,15 +198,13 @@ TRANSMISSION_FROM_ABSORBING = _from_front(
     textbook.amplitude_inhomogeneous_transmission,
 )
 TRANSMISSION_FROM_BEHIND = _from_behind(
-    TRANSMISSION,
-    stable.transmission_from_behind,
-    textbook.amplitude_transmission_from_behind,
+    TRANSMISSION, stable.transmission_from_behind, textbook.amplitude_transmission_from_behind
 )
+_FACES = REFLECTION_FROM_ABSORBING, TRANSMISSION_FROM_ABSORBING, TRANSMISSION_FROM_BEHIND
+
+_REAL_INDEX = Kernel("index without absorption", None, boundary.real_index)
 PHASE_INDEX = Kernel(
-    "index of planes of constant phase",
-    None,
-    boundary.phase_index,
-    without=(1, Kernel("index without absorption", None, boundary.real_index)),
+    "index of planes of constant phase", None, boundary.phase_index, (1, _REAL_INDEX)
 )
 """The index by which Snell's law holds for the real angle in an absorbing medium."""
 
@@ -219,14 +217,8 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
     structure = None if wanted == "absorbed" else DEPOLARIZING_BLOCK
     methods = {}
     for method in METHODS:
-        made_by = Stack(
-            REFLECTION_FROM_ABSORBING.methods[method],
-            TRANSMISSION_FROM_ABSORBING.methods[method],
-            TRANSMISSION_FROM_BEHIND.methods[method],
-            wanted,
-            measured,
-            absorbing,
-        )
+        reflection, transmission, behind = (family.methods[method] for family in _FACES)
+        made_by = Stack(reflection, transmission, behind, wanted, measured, absorbing)
         name, grey = f"{what} ({method}{lossy})", replace(made_by, unpolarising=True)
         known: tuple[Known, ...] = ()
         if structure and method == "stable":

@@ -147,9 +147,7 @@ def coefficients_fit(number: int, count: int) -> bool:
     >>> coefficients_fit(2, 7), coefficients_fit(2, 6), coefficients_fit(8, 4)
     (True, False, True)
     """
-    if number in _COUNTS:
-        return count in _COUNTS[number]
-    return count % 2 == 1
+    return count in _COUNTS[number] if number in _COUNTS else count % 2 == 1
 
 
 _COUNTS = {4: (1, 5, *range(9, 101, 2)), 7: range(3, 101), 8: (4,), 9: (6,)}

@@ -71,8 +71,7 @@ class DoubleDouble:
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> DoubleDouble:
-        if not isinstance(other, DoubleDouble):
-            other = self._of(other)
+        other = self._of(*high_and_low(other))
         quotient = self.high / other.high
         rest = self - other * self._of(quotient)
         return self._of(*_quick_two_sum(quotient, rest.high / other.high))
@@ -153,16 +152,6 @@ _ONE_OVER = tuple(Fraction(1, factorial(n)) for n in range(_TERMS))
 _SIGNED = tuple(share * (-1) ** (n // 2) for n, share in enumerate(_ONE_OVER))
 
 
-def sine(angle: DoubleDouble) -> DoubleDouble:
-    """Return the sine of an angle."""
-    return _circular(angle, 0)
-
-
-def cosine(angle: DoubleDouble) -> DoubleDouble:
-    """Return the cosine of an angle."""
-    return _circular(angle, 1)
-
-
 def _circular(angle: DoubleDouble, quarter: int) -> DoubleDouble:
     """Return the sine of an angle and some right angles."""
     known = abs(angle.high) < _HUGE
@@ -192,7 +181,7 @@ def exponential(number: DoubleDouble) -> DoubleDouble:
 def angle(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble:
     """Return the angle of a point, in rad, by one step from where floats have it."""
     near = DoubleDouble(y.xp, np.arctan2(y.high, x.high))
-    s, c = sine(near), cosine(near)
+    s, c = _circular(near, 0), _circular(near, 1)
     along = x * c + y * s
     return near + (y * c - x * s) / DoubleDouble(y.xp, np.where(along.high == 0.0, 1.0, along.high))
 
@@ -241,8 +230,8 @@ def twice(xp: Primitives) -> Primitives:
         absolute=lambda number: where(number < 0.0, -number, number),
         maximum=lambda one, other: where(one < other, other, one),
         minimum=lambda one, other: where(other < one, other, one),
-        sin=lambda angle: sine(longer(angle)),
-        cos=lambda angle: cosine(longer(angle)),
+        sin=lambda angle: _circular(longer(angle), 0),
+        cos=lambda angle: _circular(longer(angle), 1),
         exp=lambda number: exponential(longer(number)),
         atan2=lambda y, x: angle(longer(y), longer(x)),
         scaling=lambda number: xp.scaling(number.high),

@@ -134,11 +134,7 @@ def reproducible(
     xp = replace(xp, below_rounding=is_below_rounding, **in_precision)
     digits, where = DIGITS[dtype], xp.where
     polynomials = any_quadrant(xp, digits)
-
-    def in_size(angle: Any) -> Any:
-        return abs(angle) <= digits.most
-
-    small = small_enough or in_size
+    small = small_enough or (lambda angle: abs(angle) <= digits.most)
 
     def circular(place: int, plain: Callable[..., Any]) -> Callable[[Any], Any]:
         def value(angle: Any) -> Any:

@@ -13,7 +13,7 @@ from optipath.kernels.vectors import Vector, choice, cross, dot, minus, norm, pl
 from optipath.kernels.vertex_chain import points_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from optipath.kernels.kernel import Kernel
     from optipath.kernels.primitives import KernelFunction, Primitives
@@ -84,7 +84,7 @@ def facet_scattering(reflection: Kernel, masking: str, xp: Primitives) -> Kernel
     return scattered
 
 
-def _turned(rows: Any, turn_in: tuple[Any, Any], turn_out: tuple[Any, Any]) -> Any:
+def _turned(rows: Any, turn_in: Sequence[Any], turn_out: Sequence[Any]) -> Any:
     """Return the rows of a Mueller matrix between a turn before and a turn behind."""
     c, s = turn_in
     first, *middle, last = [(a, *turn_linear((c, -s), b1, b2), d) for a, b1, b2, d in rows]
@@ -103,8 +103,8 @@ class FacetBetween(NamedTuple):
     sin: Any
     slopes: tuple[Any, Any]
     tilt: Any
-    turn_in: tuple[Any, Any]
-    turn_out: tuple[Any, Any]
+    turn_in: tuple[Any, ...]
+    turn_out: tuple[Any, ...]
 
 
 def facet_between(xp: Primitives) -> Callable[[Vector, Vector, Vector, Vector], FacetBetween]:
@@ -128,9 +128,8 @@ def facet_between(xp: Primitives) -> Callable[[Vector, Vector, Vector, Vector], 
         own = times(1.0 / where(has_plane, sin, 1.0), cross(across, together))
         s = chosen(has_plane, own, x_in)
 
-        def turn(k: Vector, x: Vector) -> tuple[Any, Any]:
-            c, e = aligned(dot(x, s), dot(k, cross(x, s)))
-            return c, e
+        def turn(k: Vector, x: Vector) -> tuple[Any, ...]:
+            return aligned(dot(x, s), dot(k, cross(x, s)))
 
         c, e = turn(k_out, x_out)
         slopes = 0.0 - across[0] / across[2], 0.0 - across[1] / across[2]

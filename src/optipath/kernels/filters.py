@@ -21,11 +21,7 @@ def polarizer(xp: Primitives) -> KernelFunction:
     Chipman, Lam & Young, Polarized Light and Optical Systems (2018).
     """
     sqrt = xp.sqrt
-
-    def polarize(k1: Any, k2: Any) -> tuple[Any, ...]:
-        return k1, k2, 0.5 * (k1 - k2), sqrt(k1) * sqrt(k2), 0.0
-
-    return polarize
+    return lambda k1, k2: (k1, k2, 0.5 * (k1 - k2), sqrt(k1) * sqrt(k2), 0.0)
 
 
 def retarder(xp: Primitives) -> KernelFunction:
@@ -34,11 +30,7 @@ def retarder(xp: Primitives) -> KernelFunction:
     The slow component gains the phase exp(+i retardance), the field being exp(-i w t).
     """
     sin, cos = sine(xp), cosine(xp)
-
-    def retard(retardance: Any) -> tuple[Any, ...]:
-        return 1.0, 1.0, 0.0, cos(retardance), -sin(retardance)
-
-    return retard
+    return lambda retardance: (1.0, 1.0, 0.0, cos(retardance), -sin(retardance))
 
 
 def attenuator(_: Primitives) -> KernelFunction:

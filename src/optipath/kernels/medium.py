@@ -196,10 +196,8 @@ def _near(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
     def series(x: Any, y: Any, divisors: Sequence[float]) -> tuple[Any, Any]:
         real, imaginary = 1.0, 0.0
         for divisor in reversed(divisors):
-            real, imaginary = (
-                1.0 + (x * real - y * imaginary) / divisor,
-                (x * imaginary + y * real) / divisor,
-            )
+            along, across = x * real - y * imaginary, x * imaginary + y * real
+            real, imaginary = 1.0 + along / divisor, across / divisor
         return real, imaginary
 
     def numbers(a: Any, b: Any, size: Any, shift: Any, small: Any) -> tuple[Any, Any, Any, Any]:

@@ -151,10 +151,7 @@ def _quarters(digits: Digits) -> Callable[[Any], tuple[Any, Any]]:
 
 def _near_zero(digits: Digits) -> Callable[[Any], SinCos]:
     def polynomial(x: Any, coefficients: Any) -> Any:
-        total = coefficients[-1]
-        for other in coefficients[-2::-1]:
-            total = total * x + other
-        return total
+        return reduce(lambda total, other: total * x + other, reversed(coefficients))
 
     def sine_cosine(x: Any) -> SinCos:
         """Return sine and cosine of x within -pi/4 .. pi/4."""

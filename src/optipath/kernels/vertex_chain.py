@@ -202,19 +202,16 @@ def _met(
     return met
 
 
-def turn_between_planes(
-    xp: Primitives, *, across: bool = False, **points: Any
-) -> Callable[..., tuple[Any, Any]]:
+def turn_between_planes(xp: Primitives, *, across: bool = False, **points: Any) -> KernelFunction:
     """Make ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices."""
     met, aligned = _met(xp, **points), align(xp)
 
-    def turned(*coordinates: Any) -> tuple[Any, Any]:
+    def turned(*coordinates: Any) -> tuple[Any, ...]:
         several, (*_, x, new_x) = met(*coordinates)
         z, along = several[-2].unit, dot(x, new_x)
         if across:
             along = along - dot(x, z) * dot(new_x, z)
-        c, s = aligned(along, dot(z, cross(x, new_x)))
-        return c, s
+        return aligned(along, dot(z, cross(x, new_x)))
 
     return turned
 

@@ -76,9 +76,8 @@ def photon_ends(
     light = {"azimuth": azimuth, "wavelength": wavelength, "stokes": stokes}
     beam = beam_of(sample, incidence, **light, seed=seed, most_events=most_events, others=faults)
     number = 16 * (layout.ENDS + layout.CARRIED * beam.lights)
-    refuse_too_large(
-        (photons,), number, "give fewer photons", SurfaceError, "ends of {:.3g} photons"
-    )
+    cure, what = "give fewer photons", "ends of {:.3g} photons"
+    refuse_too_large((photons,), number, cure, SurfaceError, what)
     blocks = [
         beam.block(first // BLOCK, min(BLOCK, photons - first), keeps=True).ends
         for first in range(0, photons, BLOCK)

@@ -67,7 +67,7 @@ class HeightField(Unchanging):
     def __post_init__(self) -> None:
         faults = Faults()
         periodic = bool(faults.attempt("", YES_OR_NO.check, "periodic", self.periodic))
-        heights = heights_of(self.heights, faults, periodic=periodic)
+        heights = faults.attempt("", heights_of, self.heights, periodic=periodic)
         size = pair_of("size", self.size, faults)
         alpha = None if self.alpha is None else pair_of("alpha", self.alpha, faults)
         if faults:
@@ -205,9 +205,9 @@ class HeightField(Unchanging):
         MissingExtraError
             If it is a picture, and tifffile is not installed.
         """
-        heights = read_heights(path)
+        file = input_file(path, SurfaceError)
         try:
-            return cls.from_heights(heights, size, periodic=periodic)
+            return cls.from_heights(read_heights(file), size, periodic=periodic)
         except SurfaceError as fault:
             raise SurfaceError(*fault.faults, about=str(path)) from None
 
@@ -273,28 +273,26 @@ class HeightField(Unchanging):
         return f"HeightField{kind}{of}, {self.size[0]:.6g} x {self.size[1]:.6g}, {period}"
 
 
-def heights_of(heights: Any, faults: Faults, *, periodic: bool) -> Array:
+def heights_of(heights: Any, *, periodic: bool) -> Array:
     """Return heights as a read-only copy in float64. Shape: heights (rows, columns)."""
-    least = 2 if periodic else 3
-    array = faults.attempt("", as_argument, "the array of heights", heights, SurfaceError)
-    if array is None:
-        return np.zeros((least, least))
+    least, array = 2 if periodic else 3, as_argument("the array of heights", heights, SurfaceError)
     if array.dtype.kind not in "iuf" or array.ndim != 2 or min(array.shape) < least:
-        faults.append(
+        raise SurfaceError(
             f"heights are an array of {array.dtype} of shape {array.shape}; give real numbers, "
             f"rows along y and columns along x, {least} x {least} or more"
         )
-        return np.zeros((least, least))
     stored = np.array(as_doubles(array), order="C")
     if (bad := np.argwhere(~np.isfinite(stored))).size:
         row, column = map(int, bad[0])
-        faults.append(
+        raise SurfaceError(
             f"{len(bad)} of {stored.size} heights are not finite, the first "
             f"{stored[row, column]} at heights[{row}, {column}]; cut these out, or fill them with "
             f"heights around them"
         )
-    elif (highest := np.abs(stored).max()) > LARGEST:
-        faults.append(f"heights reach {highest:.3g}; give them in a unit of at most {LARGEST:g}")
+    if (highest := np.abs(stored).max()) > LARGEST:
+        raise SurfaceError(
+            f"heights reach {highest:.3g}; give them in a unit of at most {LARGEST:g}"
+        )
     stored.setflags(write=False)
     return stored
 
@@ -303,26 +301,20 @@ _MOST_BYTES = 256 * 1024 * 1024
 """How many bytes a file of heights may have."""
 
 
-def read_heights(path: str | PathLike[str]) -> Array:
+def read_heights(file: Path) -> Array:
     """Read the heights of a file, row by row."""
-    file = input_file(path, SurfaceError)
     ending = file.suffix.lower()
     if ending not in _READERS:
-        raise SurfaceError(
-            f"a file of heights cannot end in '{file.suffix}'{did_you_mean(ending, _READERS)}",
-            about=str(file),
-        )
+        near = did_you_mean(ending, _READERS)
+        raise SurfaceError(f"a file of heights cannot end in '{file.suffix}'{near}")
     if file.is_fifo() and _READERS[ending] is not _text:
-        raise SurfaceError("is a pipe; give a file", about=str(file))
+        raise SurfaceError("is a pipe; give a file")
     try:
         return _READERS[ending](file)
     except OSError as fault:
-        why = fault.strerror or "it is damaged"
-        raise SurfaceError(f"cannot be read: {why}", about=str(file)) from None
+        raise SurfaceError(f"cannot be read: {fault.strerror or 'it is damaged'}") from None
     except (ValueError, EOFError, MemoryError) as fault:
-        raise SurfaceError(
-            f"is no table of heights: {' '.join(str(fault).split())}", about=str(file)
-        ) from None
+        raise SurfaceError(f"is no table of heights: {' '.join(str(fault).split())}") from None
 
 
 def _text(file: Path) -> Array:

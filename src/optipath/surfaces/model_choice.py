@@ -177,13 +177,12 @@ def _single_scattering(
 
 def _beyond_the_model(sample: Sample, side: str) -> str:
     """Return why the analytic model cannot tell the light of the sample; nothing if it can."""
-    if len(sample.layers) > 1:
-        return "the sample is layered, and it tells the light of one interface"
-    if side == "transmitted":
-        return "it tells reflected light"
-    if alpha_of(sample) is None:
-        return "the interface has no alpha, and it takes a density of slopes"
-    return ""
+    reasons = {
+        "the sample is layered, and it tells the light of one interface": len(sample.layers) > 1,
+        "it tells reflected light": side == "transmitted",
+        "the interface has no alpha, and it takes a density of slopes": alpha_of(sample) is None,
+    }
+    return next((why for why, holds in reasons.items() if holds), "")
 
 
 @dataclass(frozen=True)

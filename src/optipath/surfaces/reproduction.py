@@ -179,6 +179,14 @@ def _excess(component: int, walked: Walked, _: Measurement) -> Measured:
     return Measured(*model_excess(walked.hemisphere, component))
 
 
+def _largest_s3(walked: Walked, _: Measurement) -> Measured:
+    return Measured(np.abs(model_of(walked.hemisphere)[..., 3]).max().item(), 0.0)
+
+
+def _off(walked: Walked, _: Measurement) -> Measured:
+    return Measured(*model_off(walked.once), _NEAR)
+
+
 _SHARES = {
     "R_s": "share reflected after one event",
     "R_m": "share reflected after several events",
@@ -203,15 +211,9 @@ MEASURES = {
     "dolp": Measure("DoLP of mirrored light", partial(_mirrored, "dolp"), _OF_LIGHT),
     "aop": Measure("AoP of mirrored light, 0 .. 45 deg", partial(_mirrored, "aop"), _OF_LIGHT),
     **{f"model-S{n}": Measure(t, partial(_excess, n), _PIXELS) for n, t in enumerate(_MODEL)},
-    "model-S3": Measure(
-        "largest S3 of the facet model",
-        lambda walked, _: Measured(np.abs(model_of(walked.hemisphere)[..., 3]).max().item(), 0.0),
-        ("sensor",),
-    ),
+    "model-S3": Measure("largest S3 of the facet model", _largest_s3, ("sensor",)),
     "model-off": Measure(
-        "facet model off photons after one event, over the largest S0",
-        lambda walked, _: Measured(*model_off(walked.once), _NEAR),
-        _PIXELS,
+        "facet model off photons after one event, over the largest S0", _off, _PIXELS
     ),
 }
 """By the names that files of experiments have."""
@@ -354,11 +356,8 @@ def _measurements(
         known = {*_OF_ALL, "published", "within", *MEASURES[measure].takes}
         if len(wavelengths) > 1 and not MEASURES[measure].several:
             faults.append(f"measure '{measure}' is of one wavelength, not of {len(wavelengths)}")
-        faults += [
-            f"'{key}' is given, but measure '{measure}' does not depend on it; leave it out"
-            for key in table
-            if key not in known
-        ]
+        why = f"is given, but measure '{measure}' does not depend on it; leave it out"
+        faults += [f"'{key}' {why}" for key in table if key not in known]
     for name in _LIMITS:
         largest = ANY_AZIMUTH if name == "azimuth" else float("inf")
         if not 0.0 <= _number(table.get(name, 0.0)) <= largest:

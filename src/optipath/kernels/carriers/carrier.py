@@ -240,19 +240,16 @@ class ScaledCarrier(Carrier):
     def meet(
         self, solver: SolvedLoop, arriving: Mapping[int, ScaledState]
     ) -> dict[int, ScaledState]:
-        most = reduce(self.xp.maximum, (self._exponent(state) for state in arriving.values()))
-        most = self.xp.where(most > _DARK, most, 0)
+        where, states = self.xp.where, arriving.values()
+        lit = [where(_size(self.xp, light) > 0.0, exponent, _DARK) for light, exponent in states]
+        most = reduce(self.xp.maximum, lit)
+        most = where(most > _DARK, most, 0)
         parts = {}
         for junction, (carried, exponent) in arriving.items():
             light = _times_two_to(self.xp, carried, exponent - most)
             parts[junction] = parts_of(self.xp, light, solver.count(junction))
         lights = solver.lights(parts).items()
         return {k: self._resolved(light_of(self.xp, result), most) for k, result in lights}
-
-    def _exponent(self, state: ScaledState) -> Any:
-        """Return the exponent of light, below all others where it is dark."""
-        carried, exponent = state
-        return self.xp.where(_size(self.xp, carried) > 0.0, exponent, _DARK)
 
     def read(self, state: ScaledState, count: int = 4) -> tuple[Components, Any]:
         carried, exponent = state

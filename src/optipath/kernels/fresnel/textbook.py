@@ -78,10 +78,8 @@ def _printed(xp: Primitives) -> KernelFunction:
         # Some engines' maximum would make a number of an angle that is none.
         squared = where(squared < 0.0, 0.0, squared)
         Fs = squared / maximum(ab + 2.0 * a * c + c * c, 1e-37)
-        ratio = maximum(ab - 2.0 * a * st + st * st, 0.0) / maximum(
-            ab + 2.0 * a * st + st * st, 1e-37
-        )
-        return n, k, a, b, Fs, Fs * ratio
+        less, more = ab - 2.0 * a * st + st * st, ab + 2.0 * a * st + st * st
+        return n, k, a, b, Fs, Fs * (maximum(less, 0.0) / maximum(more, 1e-37))
 
     return printed
 

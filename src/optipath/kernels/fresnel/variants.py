@@ -13,15 +13,13 @@ from optipath.kernels.double_double import DoubleDouble, twice
 from optipath.kernels.fresnel.boundary import (
     Boundary,
     absorbing_wave,
-    denser_boundary,
     inhomogeneous_boundary,
-    lossless_boundary,
 )
 from optipath.kernels.fresnel.stable import sum_squared
 from optipath.kernels.vertex_chain import Event
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from optipath.kernels.kernel import Kernel
     from optipath.kernels.primitives import Factory, KernelFunction, Primitives
@@ -57,16 +55,19 @@ def reflected_powers(xp: Primitives) -> KernelFunction:
     return powers
 
 
-def lossless_powers(xp: Primitives) -> KernelFunction:
+def lossless_powers(
+    boundary: Callable[[Primitives], Callable[..., Boundary]], xp: Primitives
+) -> KernelFunction:
     """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: the same, cheaper, for k = 0."""
-    boundary = lossless_boundary(xp)
-    return lambda n1, n, *angle: _powers(xp, angle, boundary(n1, n, *angle))
+    boundary_at = boundary(xp)
 
+    def powers(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
+        at = boundary_at(n1, n, *angle)
+        P, along = sum_squared(at), at.slant(xp.where)
+        parted = _of_refracted(xp, angle, at.p, at.D * at.D + at.v * at.v, P * P)
+        return parted * along.q, parted * along.less, P * P * along.q
 
-def denser_powers(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: cheaper again, for n >= n1."""
-    boundary = denser_boundary(xp)
-    return lambda n1, n, *angle: _powers(xp, angle, boundary(n1, n, *angle))
+    return powers
 
 
 def inhomogeneous_powers(xp: Primitives) -> KernelFunction:
@@ -91,12 +92,6 @@ def _of_refracted(xp: Primitives, angle: tuple[Any, ...], p: Any, parted: Any, m
     Beyond total reflection before, D is that of two media which light does not get to.
     """
     return xp.where(p > 0.0, xp.minimum(parted, most), most) if len(angle) > 2 else parted
-
-
-def _powers(xp: Primitives, angle: tuple[Any, ...], at: Boundary) -> tuple[Any, ...]:
-    P, along = sum_squared(at), at.slant(xp.where)
-    parted = _of_refracted(xp, angle, at.p, at.D * at.D + at.v * at.v, P * P)
-    return parted * along.q, parted * along.less, P * P * along.q
 
 
 def compensated(factory: Factory, xp: Primitives) -> KernelFunction:

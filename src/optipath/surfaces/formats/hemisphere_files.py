@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import errno
 import json
 import os
-import secrets
-import shutil
 from dataclasses import asdict, dataclass, replace
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
@@ -312,22 +310,18 @@ def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
         raise SurfaceError(
             f"'{folder}' is there already, and is no hemisphere; give another name, or move it away"
         )
-    if not folder.parent.is_dir():  # Zarr would make one.
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT))
-    name = f".{secrets.token_hex(8)}"
-    draft, old = (folder.with_name(f"{name}.{kind}") for kind in ("draft", "old"))
-    try:
+    with TemporaryDirectory(prefix=".", dir=folder.parent, ignore_cleanup_errors=True) as place:
+        draft, old = Path(place, "draft"), Path(place, "old")
         # Version 2, whose words of a fixed length and joint metadata are in its specification.
         encoding = {"sums": {"chunks": (1, *dataset["sums"].shape[1:])}}
         dataset.to_zarr(draft, encoding=encoding, zarr_format=2, consolidated=True)
         if folder.exists():
             folder.rename(old)
-        draft.rename(folder)
-    finally:
-        if old.exists() and not folder.exists():
-            old.rename(folder)
-        for left in (draft, old):
-            shutil.rmtree(left, ignore_errors=True)
+        try:
+            draft.rename(folder)
+        finally:
+            if old.exists() and not folder.exists():
+                old.rename(folder)
 
 
 def read_dataset(place: Path) -> xr.Dataset:

@@ -23,8 +23,8 @@ def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     """Return the Dataset of a hemisphere. Units: the result in radians."""
     sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
     results: dict[str, Any] = {}
-    for name, (what, kinds) in _NUMBERS.items():
-        if polarized in kinds:
+    for name, (kind, what) in _NUMBERS.items():
+        if polarized in ("both", kind):
             value, error = getattr(hemisphere, name)
             dims = (*PIXELS, "out", "in") if name == "mueller" else PIXELS
             results[name] = dims, value, {"long_name": what, "units": "1"}
@@ -38,19 +38,16 @@ def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
 
 _NUMBERS = {
     "mueller": (
+        "polarized",
         "Mueller matrix: share of the light on the sample that goes into the pixel",
-        ("both", "polarized"),
     ),
-    "scalar": (
-        "share of the light that goes into the pixel, without polarisation",
-        ("both", "scalar"),
-    ),
+    "scalar": ("scalar", "share of the light that goes into the pixel, without polarisation"),
     "difference": (
+        "both",
         "share of unpolarised light that goes into the pixel, less that without polarisation",
-        ("both",),
     ),
 }
-"""What may be measured of pixels, and by which measurements it is."""
+"""What is known of pixels where it is measured, or both are."""
 
 
 def _of_error(name: str, units: str = "1") -> dict[str, str]:

@@ -13,7 +13,7 @@ from optipath.errors import SurfaceError, shown
 from optipath.surfaces.ends import turned_directions
 from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import BLOCK, PORTION, walked_in_order
-from optipath.surfaces.walk.code import pixel_code
+from optipath.surfaces.walk.code import walk_code
 from optipath.values.arrays import same_fields
 from optipath.values.precision import real_number
 
@@ -90,7 +90,7 @@ class SensedBeam:
         progress: Callable[[int, int], None] | None = None,
     ) -> PartSums:
         """Walk the photons of a chunk, and sum them up in their order."""
-        result, add, done = PartSums.none(self.shape), pixel_code(), CHUNK * number
+        result, add, done = PartSums.none(self.shape), walk_code("pixel_sums"), CHUNK * number
         stored = [int(self.polarized != other) for other in ("scalar", "polarized")]
         lights = self.beam.indices.n.size
         wanted = min(photons, CHUNK * (number + 1))

@@ -15,11 +15,14 @@ if TYPE_CHECKING:
     from optipath.engines.machine_code import MachineCode
 
 
-_BLOCK = (
-    "*int64 *float64 *float64 *float64 *float64 *float64 int64 float64 float64 float64 *float64 "
-    "int64 int64 int64 int64 *uint64 *float64 *float64 *float64 *float64 *float64 int64"
-)
-_PIXELS = "*int64 *float64 *float64 int64 int64 int64 int64 int64 *float64"
+_KINDS = {
+    "photon_block": (
+        "*int64 *float64 *float64 *float64 *float64 *float64 int64 float64 float64 float64 "
+        "*float64 int64 int64 int64 int64 *uint64 "
+        "*float64 *float64 *float64 *float64 *float64 int64"
+    ),
+    "pixel_sums": "*int64 *float64 *float64 int64 int64 int64 int64 int64 *float64",
+}
 """The types of arguments, as Numba names them; ``*`` before the type of an array's numbers."""
 
 _SOURCES = "kernels", "engines", "surfaces/walk"
@@ -27,18 +30,8 @@ _SOURCES = "kernels", "engines", "surfaces/walk"
 
 
 @cache
-def walk_code() -> MachineCode:
-    """Return `photon_block` as compiled code, which leaves other threads to do their work."""
-    return _code_of("photon_block", _BLOCK)
-
-
-@cache
-def pixel_code() -> MachineCode:
-    """Return `pixel_sums` as compiled code; raises what `walk_code` does."""
-    return _code_of("pixel_sums", _PIXELS)
-
-
-def _code_of(name: str, kinds: str) -> MachineCode:
+def walk_code(name: str = "photon_block") -> MachineCode:
+    """Return a function of the walk as compiled code, which lets other threads do their work."""
     need("photons on rough surfaces", "numba", "llvmlite")
     from optipath.engines.code_cache import CODE  # noqa: PLC0415 - beside it
     from optipath.engines.llvm_engine import is_forbidden  # noqa: PLC0415 - beside it
@@ -47,8 +40,8 @@ def _code_of(name: str, kinds: str) -> MachineCode:
         raise SurfaceError(
             "NUMBA_DISABLE_JIT is set, and photons on rough surfaces are compiled; unset it"
         )
-    text = f"{name}({kinds}) of sources {digest_of(_SOURCES)}"
-    return CODE.function(text, partial(_machine_code_of, name, kinds.split()))
+    text = f"{name}({_KINDS[name]}) of sources {digest_of(_SOURCES)}"
+    return CODE.function(text, partial(_machine_code_of, name, _KINDS[name].split()))
 
 
 def _machine_code_of(name: str, kinds: list[str], _: str) -> bytes:

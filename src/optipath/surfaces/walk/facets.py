@@ -179,10 +179,7 @@ def ldexp(number: Any, power: Any) -> Any:
     return np.float64(number) * first.view(np.float64) * second.view(np.float64)
 
 
-_SPACE = {
-    **{name: getattr(np, name) for name in ("sqrt", "inf", "nan")},
-    **{one.__name__: one for one in (exponent, ldexp)},
-}
+_SPACE = {"sqrt": np.sqrt, "inf": np.inf, "nan": np.nan, "exponent": exponent, "ldexp": ldexp}
 
 
 def _plane(xp: Primitives) -> KernelFunction:
@@ -216,9 +213,8 @@ def _boundary(xp: Primitives) -> KernelFunction:
 def _acted(xp: Primitives) -> KernelFunction:
     """Make ``(carried, cos 2a, sin 2a, Fs, Fp, B, C, S) -> carried``: turned, then met."""
 
-    def acted(*numbers: Any) -> tuple[Any, ...]:
-        carried, rotation, block = numbers[:4], numbers[4:6], numbers[6:]
-        return BLOCK.action(xp, block, ROTATION.action(xp, rotation, carried, 4), 4)
+    def acted(a: Any, b: Any, c: Any, d: Any, cos: Any, sin: Any, *block: Any) -> tuple[Any, ...]:
+        return BLOCK.action(xp, block, ROTATION.action(xp, (cos, sin), (a, b, c, d), 4), 4)
 
     return acted
 
