@@ -55,8 +55,7 @@ class Builder:
         """Say what the junctions of a loop add up, now that all of its steps are there."""
         for junction, lights in inputs.items():
             self.steps[junction] = replace(self.steps[junction], inputs=tuple(lights))
-        start = min(inputs)
-        order = in_order_of_elimination(self.steps, start, tuple(inputs))
+        order = in_order_of_elimination(self.steps, min(inputs), tuple(inputs))
         layered = all(count <= 2 for count in order.values())
         self.loops.append(Loop(tuple(order), len(self.steps), layered))
 

@@ -233,8 +233,7 @@ class SameMedium(Agreement):
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
         n1, n2, *k = numbers
-        single = is_single(xp, n1) | is_single(xp, n2)
-        rounding = xp.where(single, _OF_SINGLE_INDEX, _OF_INDEX)
+        rounding = xp.where(is_single(xp, n1) | is_single(xp, n2), _OF_SINGLE_INDEX, _OF_INDEX)
         differs = abs(n1 - n2) > rounding * xp.maximum(n1, n2)
         if len(k) == 1:
             return ~(differs | (k[0] != 0.0))
@@ -313,8 +312,7 @@ class SnellsLaw(Agreement):
         last = xp.where(single, _LAST_SINGLE_DIGITS, _LAST_DIGITS)
         normal = xp.minimum(abs(n1 * xp.cos(angle1)), abs(n2 * xp.cos(angle2)))
         here, there = n1 * xp.sin(angle1), n2 * xp.sin(angle2)
-        apart = abs(here - there)
-        differs = apart > rounding * normal + last * xp.maximum(n1, n2)
+        differs = abs(here - there) > rounding * normal + last * xp.maximum(n1, n2)
         if turns:
             differs = differs & ~(abs(xp.sin(sum(turns))) > TURNED)
         # Where all is reflected, the angle behind is a right one, and no light gets there.

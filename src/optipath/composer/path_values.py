@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.values.agreement import Agreement
-    from optipath.values.parameters import Resolved
 
 
 FOLLOWING = "following"
@@ -113,16 +112,6 @@ class Values:
         return {owner: shape for owner, shape in shapes.items() if shape}
 
     @cached_property
-    def defaults(self) -> dict[str, Resolved]:
-        """What parameters are by default: those with one number, and of elements that are there."""
-        usual = {name: p.default for name, p in self.parameters.items() if not p.bound}
-        known = {n: v for n, v in usual.items() if v is not None and not is_traced(v)}
-        results = {name: self.parameters[name].resolve(value) for name, value in known.items()}
-        results = {name: r for name, r in results.items() if r.present.ndim == 0 and r.present}
-        alone = [c for c in self._computed if c.follows(results) and not c.curve.takes_grid]
-        return results | {c.name: c.computed(results) for c in alone}
-
-    @cached_property
     def _computed(self) -> tuple[CurveValue, ...]:
         """What follows from parameters that are given when the path runs."""
         results = [use.value for use in self.uses if isinstance(use.value, CurveValue)]
@@ -154,7 +143,7 @@ class Values:
         faulty: set[str] = set()
         looked_at = set()
         out_of = set()
-        uses: Iterable[Use] = self.uses
+        uses: Iterable[Use] = [use for use in self.uses if not use.checked]
         if FOLLOWING in self.graph.graph:
             uses = sorted(uses, key=self._is_taken_over)
         for use in uses:

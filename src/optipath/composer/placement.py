@@ -110,14 +110,16 @@ def _between_faults(wiring: Wiring) -> Iterator[str]:
 
 def _link_fault(wiring: Wiring, link: Link) -> str:
     start, end, (leaves, enters) = link
+    own, nodes = wiring.graph.edges[link]["azimuth"], wiring.graph.nodes
+    if own is None and not nodes[start]["frames"] and not nodes[end]["frames"]:
+        return ""
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
-    own = wiring.graph.edges[link]["azimuth"]
     element_turn = azimuth_at(wiring.elements[end], enters)
     if own is not None and not is_zero(element_turn):
         turns = f"{turn_text(own)} and {turn_text(element_turn)}"
         return f" and '{end}' both give an azimuth, {turns}; give it in one place"
     for name, port, frame in ((start, leaves, arriving), (end, enters, expected)):
-        if frame is None and (frames := wiring.graph.nodes[name]["frames"]):
+        if frame is None and (frames := nodes[name]["frames"]):
             other = f"'{name}.{port}' has no world frame, though '{name}.{next(iter(frames))}' has"
             return f": {other}; give it one"
     ends_relatively = expected is None and not wiring.elements[end].outputs and own is None

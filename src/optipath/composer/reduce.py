@@ -397,8 +397,7 @@ class Constant(NamedTuple):
             return _unless_identity(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
         for one, other in ((self, later), (later, self)):
             if one.structure == SCALE and other.structure != ROTATION:
-                t = one.numbers[0]
-                product = tuple(t * number for number in other.numbers)
+                product = tuple(one.numbers[0] * number for number in other.numbers)
                 return _unless_identity(Constant(other.structure, product))
         return None
 
@@ -439,61 +438,51 @@ def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, 
     }
     if not known:
         return program, []
-    multiplying = _Multiplying(
-        [known.get(step.evaluation) for step in program.steps], matrices=matrices
-    )
-    return along_chains(program, multiplying.done_to), multiplying.notes
+    constants = [known.get(step.evaluation) for step in program.steps]
+    notes: list[str] = []
 
-
-class _Multiplying:
-    """Multiplies the constants of chains, and notes which."""
-
-    def __init__(self, known: Sequence[Constant | None], *, matrices: bool) -> None:
-        self.known = known
-        self.matrices = matrices
-        self.notes: list[str] = []
-
-    def done_to(self, items: list[Item]) -> list[Item]:
+    def done_to(items: list[Item]) -> list[Item]:
         results: list[Item] = []
         run: list[tuple[Item, Constant]] = []
         for item in items:
-            constant = self.known[item.light]
+            constant = constants[item.light]
             if constant is None:
-                results += self._as_one(run)
+                results += as_one(run)
                 run = []
                 results.append(item)
             elif tuple(constant.numbers) == constant.structure.identity:
-                self.notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
+                notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
             elif run and (both := run[-1][1].then(constant)):
-                run[-1] = self._joined([run[-1][0], item], both), both
+                run[-1] = _joined([run[-1][0], item], both, notes), both
             else:
                 run.append((item, constant))
-        return results + self._as_one(run)
+        return results + as_one(run)
 
-    def _as_one(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
+    def as_one(run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
-        items, constants = [item for item, _ in run], [constant for _, constant in run]
-        if not (self.matrices and len(run) > 1):
-            return items
-        dear = sum([_KINDS[each.structure.name][1] for each in constants]) > _KINDS[FULL.name][1]
-        if not (dear and all(constant.lets_through for constant in constants)):
-            return items
+        costs = [_KINDS[constant.structure.name][1] for _, constant in run]
+        dear = matrices and len(run) > 1 and sum(costs) > _KINDS[FULL.name][1]
+        if not (dear and all(constant.lets_through for _, constant in run)):
+            return [item for item, _ in run]
         results: list[tuple[Item, Constant]] = []
         for place, (item, constant) in enumerate(run):
             both = multiplied(results[-1][1], constant) if place % _MOST else None
             if both:
-                results[-1] = self._joined([results[-1][0], item], both), both
+                results[-1] = _joined([results[-1][0], item], both, notes), both
             else:
                 results.append((item, constant))
         return [item for item, _ in results]
 
-    def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
-        names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
-        self.notes.append(f"constant, and multiplied: {' and '.join(names)}")
-        operation = Operation(
-            _KINDS[constant.structure.name][0], tuple(map(Operand, constant.numbers))
-        )
-        return items[-1]._replace(label=label_of(items), operation=operation)
+    return along_chains(program, done_to), notes
+
+
+def _joined(items: Sequence[Item], constant: Constant, notes: list[str]) -> Item:
+    """Return neighbours as one step, and note it."""
+    names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
+    notes.append(f"constant, and multiplied: {' and '.join(names)}")
+    kernel = _KINDS[constant.structure.name][0]
+    operation = Operation(kernel, tuple(map(Operand, constant.numbers)))
+    return items[-1]._replace(label=label_of(items), operation=operation)
 
 
 _TURNS = (TURN, TURN_BACK)

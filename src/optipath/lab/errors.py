@@ -99,8 +99,7 @@ def interface_errors(
     >>> bool(np.all(off.componentwise <= 10))
     True
     """
-    kernel = FAMILIES[what].by_method(method)
-    result = matrix_numbers(kernel, region.samples(count, dtype))
+    result = matrix_numbers(FAMILIES[what].by_method(method), region.samples(count, dtype))
     exact = _references(region, dtype, count, what)
     return errors(result, exact, dtype, against_first=against_first)
 
@@ -146,8 +145,7 @@ def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
     try:
         lights = composer.compose(of.graph).run_all()
     except ParameterError:
-        shape = (len(exact), 4)
-        return Errors(np.full(shape, np.inf), np.full(len(exact), np.inf))
+        return Errors(np.full((len(exact), 4), np.inf), np.full(len(exact), np.inf))
     result = np.concatenate([lights[end].stokes.reshape(-1, 4) for end in ends])
     unread = np.isnan(result)
     result = np.where(unread, 0, result)

@@ -44,8 +44,7 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     >>> [float(component) for component in lights["eye"].stokes]
     [0.5, 0.5, 0.0, 0.0]
     """
-    argument = _single(path, parameters)
-    return _exact(_wiring(path.graph), argument, (), ())
+    return _exact(_wiring(path.graph), _single(path, parameters), (), ())
 
 
 def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
@@ -130,8 +129,7 @@ class _Walk:
         arguments = [part for light in arriving for part in stokes_of(light)]
         units = mpmath.eye(len(arguments)).tolist()
         back = mpmath.matrix([self._once_round(loop, unit) for unit in units])
-        system = mpmath.eye(len(arguments)) - back.T
-        self._once_round(loop, _solved(system, arguments))
+        self._once_round(loop, _solved(mpmath.eye(len(arguments)) - back.T, arguments))
 
     def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
         """Return what the light at the junctions brings back to them."""

@@ -47,8 +47,7 @@ def mueller_of(steps: Iterable[Step]) -> list[list[Any]]:
         for does, values in steps:
             total = mpmath.matrix(_matrix(does, values)) * total
         least = mpmath.mpf(10) ** -DIGITS * (total[0, 0] or 1)
-        rows = total.tolist()
-        return [[x if abs(x) > least else mpmath.mpf(0) for x in row] for row in rows]
+        return [[x if abs(x) > least else mpmath.mpf(0) for x in row] for row in total.tolist()]
 
 
 def _matrix(step: str, values: Values) -> list[list[Any]]:

@@ -90,8 +90,7 @@ def shown(error: float) -> str:
 def _reflection(dtype: str, kind: str, samples: int) -> TextTable:
     def row(region: Region) -> Iterator[str]:
         for method in METHODS:
-            off = interface_errors(method, region, dtype, samples)
-            yield shown(_largest(getattr(off, kind)))
+            yield shown(_largest(getattr(interface_errors(method, region, dtype, samples), kind)))
 
     words = {"componentwise": "worst of A, B, C, S, each in its ulp*", "normwise": "in ulp of A"}
     return _of_regions(f"Reflection, {dtype}, {kind}: {words[kind]}", METHODS, row)
@@ -257,8 +256,7 @@ def _wide(
     n, k, c, s = (part.astype(kind) for part in samples)
     s = s * (kind(1.0) + by)
     length = np.hypot(c, s)
-    moved = Samples(n, k, c / length, s / length)
-    numbers = matrix_numbers(family.by_method("stable"), moved)
+    numbers = matrix_numbers(family.by_method("stable"), Samples(n, k, c / length, s / length))
     return numbers[:, 0], numbers[:, place]
 
 

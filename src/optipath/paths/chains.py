@@ -124,17 +124,16 @@ def letters_of(events: Any, count: int) -> Letters:
     if texts.dtype.kind != "U":
         raise ValueFault(f"events is {shown(events)}; {_CURE}, such as 'RT'")
     width = max(texts.dtype.itemsize // 4, 1)
-    letters = np.ascontiguousarray(texts).view(np.uint32).reshape(*texts.shape, width)
     if texts.ndim < 2:
         if width > count:
             many = f"{width} letters for a chain of {count} vertices at most"
             raise ValueFault(f"events has {many}; {_CURE}")
-        room = np.zeros((*texts.shape, count - width), np.uint32)
-        return np.concatenate([letters, room], axis=-1)
+        padded = np.ascontiguousarray(texts.astype(f"U{count}"))
+        return padded.view(np.uint32).reshape(*texts.shape, count)
     if texts.shape[-1] != count or width > 1:
         cure = f"a text for each chain, in one row, or single letters of shape (..., {count})"
         raise ValueFault(f"events has shape {texts.shape}, of up to {width} letters; give {cure}")
-    return letters[..., 0]
+    return np.ascontiguousarray(texts).view(np.uint32)
 
 
 def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats:

@@ -42,8 +42,7 @@ def draw(path: PathGraph) -> str:
         element = path.element(name)
         described = f"{name.ljust(name_width)}  {element.kind.ljust(kind_width)}  "
         lines.append((described + "  ".join(element_values(element))).rstrip())
-        links = sorted(graph.out_edges(name, keys=True))
-        for link in links:
+        for link in sorted(graph.out_edges(name, keys=True)):
             _, end, (leaves, enters) = link
             azimuth, tap = graph.edges[link]["azimuth"], graph.edges[link].get("tap")
             turn = "" if azimuth is None else f"  turned by {value_text(azimuth, 'deg')}"

@@ -98,8 +98,7 @@ def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
     """Put other elements behind a port, in place, and return what the last of them is called."""
     if others is graph:
         raise PathError(f"what is put behind '{port}' is the path that it stands in; use a copy")
-    names = join(graph, others, find_port(graph, port, out=True))
-    return list(names.values())[-1]
+    return [*join(graph, others, find_port(graph, port, out=True)).values()][-1]
 
 
 def as_chain(graph: nx.MultiDiGraph) -> list[str]:

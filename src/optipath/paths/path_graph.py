@@ -799,8 +799,7 @@ class Node(Chainable):
 
     def __rshift__(self, behind: Any) -> Node:
         if not isinstance(behind, Node):
-            last = self.path._append(self._text, begun(behind))
-            return Node(self.path, last)
+            return Node(self.path, self.path._append(self._text, begun(behind)))
         if behind.path is not self.path:
             raise PathError(f"'{self.name}' and '{behind.name}' stand in different paths; use one")
         self.path.connect(self._text, behind._text)

@@ -125,8 +125,7 @@ def path_from_vertices(
         batch: tuple[int, ...] = ()
         if not isinstance(vertices, (Parameter, VerticesByAngles)):
             batch = np.shape(as_argument("the array of vertices", vertices))[:-2]
-        real = [_real_again(medium) for medium in media]
-        chains = histories(real, events, ids, lengths, batch)
+        chains = histories([*map(_real_again, media)], events, ids, lengths, batch)
         points = _points(vertices, chains)
         if bad == "mask":
             chains = apart_where_absorbed(chains)

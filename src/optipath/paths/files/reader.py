@@ -94,10 +94,8 @@ def _unit_faults(values: Values, parameters: Mapping[str, Parameter]) -> list[Fa
     """Return a fault for each parameter that stands where another unit belongs, or any."""
     faults: dict[str, Fault] = {}
     for use in values.parameter_uses:
-        dimension = use.domain.dimension
-        if (name := use.value.name) not in parameters:
-            continue
-        if dimension_of(unit := parameters[name].unit) != dimension:
+        name, dimension = use.value.name, use.domain.dimension
+        if name in parameters and dimension_of(unit := parameters[name].unit) != dimension:
             request = with_article(dimension) if dimension else "a pure number"
             usual = f'"{USUAL_UNITS[dimension]}" or another' if dimension else '""'
             faults[name] = Fault(
@@ -195,10 +193,6 @@ def _read_cases(
 ) -> None:
     """Add the cases that tables describe; what several of them give is decoded once."""
     ends = [name for name in path if not path.element(name).outputs]
-    uses: dict[str, list[Use]] = {name: [] for name in known}
-    for use in values.uses:
-        if isinstance(use.value, Parameter):
-            uses.setdefault(use.value.name, []).append(use)
     decoded: dict[tuple[str, str], Any] = {}
     for case, table in tables.items():
         faults += name_faults(case)
@@ -211,8 +205,8 @@ def _read_cases(
                 unknown = f"parameter '{name}' is unknown{did_you_mean(name, known)}"
                 faults.append(Fault(unknown, place=place))
             elif (name, repr(raw)) not in decoded:
-                at = f"{place}.{name}"
-                read = faults.attempt(at, _argument, raw, known[name], uses[name])
+                at, uses = f"{place}.{name}", values.parameter_uses
+                read = faults.attempt(at, _argument, raw, known[name], uses)
                 decoded[name, repr(raw)] = read
         published = table.get("published", {})
         for name, stokes in published.items():
