@@ -131,11 +131,11 @@ def _of_table(raw: dict[str, Any], domain: Domain, parameters: Parameters) -> An
         return _complex(_parts(raw, domain, {}))
     if isinstance(domain, VerticesDomain):
         checked_table(raw, {**dict.fromkeys(_ANGLES, list), _BACKWARDS: bool})
-        angles = [
+        incidences, turns = [
             each_entry(raw.get(key, []), lambda one: decode(one, ANGLE, parameters), f".{key}")
             for key in _ANGLES
         ]
-        return VerticesByAngles(*map(tuple, angles), raw.get(_BACKWARDS, False))
+        return VerticesByAngles(tuple(incidences), tuple(turns), raw.get(_BACKWARDS, False))
     return number_of(raw, domain.unit)  # Which it is not.
 
 
