@@ -208,7 +208,10 @@ def lit(*indices):
     "give, sentence",
     [
         *((lambda n=n: slab(outside=n).trace(wavelength="516 nm"), TWO) for n in (SILICA, 1.5)),
-        (op.Interface(GOLD, 0.3).mueller, "n of gold of interface depends on the wavelength"),
+        (
+            op.Interface(GOLD, 0.3).mueller,
+            "n of gold of interface has no value yet, as it depends on the wave",
+        ),
         *((lambda w=w: STACK.trace(wavelength=["500 nm", w]), BEYOND) for w in ("300 nm", "5 um")),
         (
             lambda: lit(BELOW).trace(wavelength=["550 nm", "700 nm"]),

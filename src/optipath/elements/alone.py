@@ -110,7 +110,8 @@ def _no_way(owner: str, enters: str, leaves: str, couplings: tuple[Coupling, ...
 
 def _open(owner: str, use: Use) -> str:
     """Say that a value is not known yet."""
-    cure = "; give what stands there .at('550 nm')" * isinstance(use.value, CurveValue)
+    by_wavelength = isinstance(use.value, CurveValue)
+    cure = ", as it depends on the wavelength; give what stands there .at('550 nm')" * by_wavelength
     return f"{use.value.called} of {owner} has no value yet{cure}"
 
 

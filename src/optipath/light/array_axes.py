@@ -101,7 +101,6 @@ class ArrayAxes:
         -------
         Light or Mueller
         """
-        del copy
         try:
             return self._each(lambda numbers: numbers.reshape(*shape, order=order))
         except (TypeError, ValueError):

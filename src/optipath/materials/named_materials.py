@@ -117,18 +117,17 @@ _OTHER = {"n": "k", "k": "n"}
 
 def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) -> str:
     """Say how the other part of a complex index is given; nothing where there is none."""
+    uses = [*uses]
     values = {use.owner: use.value for use in uses}
-    for owner, value in values.items():
-        place, _, part = owner.rpartition(".")
-        if isinstance(value, Parameter) and value.name == name and part in _OTHER:
-            other = _OTHER[part]
-            result = values.get(f"{place}.{other}")
-            if isinstance(result, CurveValue):
-                return f"{other} is that of {result.curve.label}; give {part} alone, a real number"
-            if isinstance(result, Parameter):
-                return f"give {other} by {how(result.name)}"
-            if isinstance(result, (int, float)):
-                return f"{other} is {result:g} where the path is built; make it a parameter there"
+    for place, _, part in [use.owner.rpartition(".") for use in places_of(uses, name)]:
+        other = _OTHER.get(part, "")
+        result = values.get(f"{place}.{other}")
+        if isinstance(result, CurveValue):
+            return f"{other} is that of {result.curve.label}; give {part} alone, a real number"
+        if isinstance(result, Parameter):
+            return f"give {other} by {how(result.name)}"
+        if isinstance(result, (int, float)):
+            return f"{other} is {result:g} where the path is built; make it a parameter there"
     return ""
 
 

@@ -140,13 +140,7 @@ class Spectrum(Curve):
 
     @classmethod
     def from_csv(
-        cls,
-        path: str | PathLike[str],
-        column: str = "power",
-        *,
-        unit: str = "",
-        outside: Any = None,
-        name: str = "",
+        cls, path: str | PathLike[str], column: str = "power", *, unit: str = "", **others: Any
     ) -> Self:
         """Return the spectrum through the samples of a file, as `sampled` does.
 
@@ -159,17 +153,18 @@ class Spectrum(Curve):
             The name of the column of values.
         unit : str, optional
             Of the wavelengths, where the first line has none.
-        outside, name
-            As `sampled` takes them; the name is that of the file by default.
+        **others
+            ``outside`` and ``name``, as `sampled` takes them; the name is that of the file by
+            default.
 
         Returns
         -------
         Spectrum
         """
         read = read_columns(path, [column], unit=unit)
+        given = {"name": read.title, **others}
         with told_as(ValueFault, str(path)):
-            of_file = read.wavelengths, read.columns[column]
-            return cls.sampled(*of_file, outside=outside, name=name or read.title)
+            return cls.sampled(read.wavelengths, read.columns[column], **given)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
