@@ -228,7 +228,11 @@ CORRELATIONS = [
         (MALUS, HALF | {"method": "gradient"}, "did you mean 'gradients'?"),
         (MALUS, HALF | {"method": np.eye(2)}, "is unknown"),
         (MALUS, HALF | {"samples": 100}, "leave samples out, or write method='monte-carlo'"),
-        (MALUS, HALF | {"method": "monte-carlo", "samples": 1}, "within 2 .. 10,000,000, not 1"),
+        (
+            MALUS,
+            HALF | {"method": "monte-carlo", "samples": 1},
+            "a whole number of 2 or more, not 1",
+        ),
         (MALUS, HALF | {"method": "monte-carlo", "seed": -1}, "seed must be a whole number of 0"),
         (MALUS, HALF | {"composer": "numpy"}, "composer must be an op.Composer(...)"),
         (MALUS, HALF | {"detector": "nose"}, "detector 'nose' does not exist"),

@@ -96,7 +96,7 @@ class BlockLight:
 
     shape: tuple[int, ...]
     lights: tuple[tuple[Light, ...], ...]
-    ran: tuple[int, ...] | None = None
+    ran: tuple[int, ...]
 
     def of(self, quantity: LightQuantity) -> npt.NDArray[Any]:
         """Return a copy of a quantity's numbers, to free the light; detectors come first."""
@@ -105,8 +105,9 @@ class BlockLight:
             for several in self.lights
         ]
         front = (len(numbers),) if len(numbers) > 1 else ()
-        result = np.concatenate(numbers).reshape(*front, *(self.ran or self.shape))
-        return result if self.ran is None else np.broadcast_to(result, (*front, *self.shape))
+        result = np.concatenate(numbers).reshape(*front, *self.ran)
+        whole = (*front, *self.shape)
+        return result if result.shape == whole else np.broadcast_to(result, whole)
 
     def __sizeof__(self) -> int:
         # What Dask takes for its memory: Stokes vectors and, once it is asked for, their noise.
@@ -121,7 +122,7 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
         numbers = varied.part(region).given()
         results.append(plan.answers.in_frames(plan.answers.lights(numbers), numbers))
     lights = [tuple([light[name] for light in results]) for name in detectors_of(plan)]
-    return BlockLight(block.shape, tuple(lights), None if varied is block else varied.shape)
+    return BlockLight(block.shape, tuple(lights), varied.shape)
 
 
 BLOCK = 1 << 20

@@ -20,7 +20,7 @@ from optipath.sweeps.monte_carlo import samples_at_once, spread_of_samples
 from optipath.sweeps.propagation import Propagation, notes_of_first_order
 from optipath.values.arrays import array_of, broadcast_fault, enough_for, first_place, numbers_for
 from optipath.values.jax_values import check_known
-from optipath.values.precision import is_whole, whole_number
+from optipath.values.precision import whole_number
 from optipath.values.units import dimension_of, format_quantity, parse_quantity
 from optipath.values.use import axes_for
 
@@ -107,21 +107,18 @@ def propagate(
 
 def _option_faults(method: str, samples: Any, seed: Any, composer: Any) -> list[str]:
     result = unknown("method", method, METHODS)
-    is_known = not result
-    if composer is not None and not isinstance(composer, Composer):
-        result.append(f"composer must be an op.Composer(...), not {shown(composer)}")
-    if samples is not None and not is_whole(samples, _FEWEST, _MOST):
-        result.append(
-            f"samples must be a whole number within {_FEWEST} .. {_MOST:,}, not {shown(samples)}"
-        )
-    if seed is not None:
-        result += whole_number("seed", seed, 0)
     drawn = [name for name, n in (("samples", samples), ("seed", seed)) if n is not None]
-    if drawn and is_known and method != "monte-carlo":
+    if drawn and not result and method != "monte-carlo":
         result.append(
             f"method='{method}' draws no samples; leave {' and '.join(drawn)} out, or write "
             f"method='monte-carlo'"
         )
+    if composer is not None and not isinstance(composer, Composer):
+        result.append(f"composer must be an op.Composer(...), not {shown(composer)}")
+    if samples is not None:
+        result += whole_number("samples", samples, _FEWEST, _MOST)
+    if seed is not None:
+        result += whole_number("seed", seed, 0)
     return result
 
 
