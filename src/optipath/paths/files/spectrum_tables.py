@@ -87,12 +87,13 @@ def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
     if make is None:
         made: Spectrum = getattr(Spectrum, form)(raw[form], **arguments)
         return made
-    readers: dict[str, Callable[[Any], list[float]]] = {
-        form: lambda entry: wavelengths_of(entry, raw.get("unit")),
-        _NEEDED[form]: lambda entry: samples_of(entry, ""),
-    }
-    columns = {key: raw[key] for key in readers}
-    return make(*each_key(columns, lambda key, entry: readers[key](entry)).values(), **arguments)
+
+    def read(key: str, entry: Any) -> list[float]:
+        return wavelengths_of(entry, raw.get("unit")) if key == form else samples_of(entry, "")
+
+    return make(
+        *each_key({key: raw[key] for key in (form, _NEEDED[form])}, read).values(), **arguments
+    )
 
 
 def _table(kind: SpectrumKind) -> dict[str, Any]:
