@@ -421,7 +421,7 @@ def test_files_of_ones_own_have_plain_names_and_are_opened_as_the_command_did(an
     assert exported(odd, "toml", {"preset": "my path (ü).toml"})[0] == "my-path-.toml"
     state = {"preset": "mine.toml", "values": {"angle": "20"}}
     text = python(answers_of("./mine.toml", malus), state, capsys)
-    assert "op.load_preset('./mine.toml', angle='20 deg')" in text
+    assert "op.load_preset('./mine.toml').bind(angle='20 deg')" in text
 
 
 @rows("values", [{"case": "40"}, {"lambda": "33"}, {"case": "1", "keep": "2", "lambda": "70"}])

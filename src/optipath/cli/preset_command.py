@@ -315,13 +315,6 @@ def _value(
     """Return what the text of an option stands for; None where it is faulty."""
     text = arguments[name]
     if name in path.choices:
-        words = path.choices[name].behind
-        if text not in words and any(each in text for each in ",:@"):
-            faults.append(
-                f"{flag(name)} takes one word of {listed([*words])}, and {shown(text)} is "
-                f"several; give one, and write a command for each"
-            )
-            return None
         return text
     parameter = path.parameters.get(name, WAVELENGTH)
     with collecting(faults):

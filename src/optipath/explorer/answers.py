@@ -20,7 +20,7 @@ from optipath.sweeps.grid import SweepGrid
 from optipath.values.units import UNITS, parse_quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from optipath.explorer.paths import ExploredPresets
     from optipath.explorer.state import ReadState, RequestedCurve, RequestedState
@@ -110,9 +110,6 @@ def _table(state: ReadState, curve: RequestedCurve | None) -> str:
         raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
 
 
-_OF_LOADING = ("case",)
-"""What `load_preset` takes for itself, and a parameter may be called, too."""
-
 _PRINTED = """\
 lights = path.trace_all()
 for name in {ends}:
@@ -123,28 +120,20 @@ for name in {ends}:
 
 def python_lines(state: ReadState, source: str) -> str:
     """Return lines of Python for a state."""
-    raw_values = {name: repr(word) for name, word in state.asked.places.items()}
-    raw_values |= {name: _value(state, name, value) for name, value in state.given.items()}
-    own = {name: text for name, text in raw_values.items() if name in _OF_LOADING}
-    arguments = [repr(source)]
-    if state.asked.case is not None:
-        arguments.append(f"case={state.asked.case!r}")
-    arguments += _by_name({name: text for name, text in raw_values.items() if name not in own})
-    loaded = f"path = op.load_preset({', '.join(arguments)})"
-    if len(loaded) > 88:
-        inner = "".join(f"    {each},\n" for each in arguments)
-        loaded = f"path = op.load_preset(\n{inner})"
-    if own:
-        loaded += f".bind({', '.join(_by_name(own))})"
+    values = {name: repr(word) for name, word in state.asked.places.items()}
+    values |= {name: _value(state, name, value) for name, value in state.given.items()}
+    arguments = [f"{name}={text}" for name, text in values.items() if not iskeyword(name)]
+    # Names that Python keeps for itself are in a mapping.
+    if stored := [f"{name!r}: {text}" for name, text in values.items() if iskeyword(name)]:
+        arguments.append(f"**{{{', '.join(stored)}}}")
+    case = "" if state.asked.case is None else f", case={state.asked.case!r}"
+    loaded = f"path = op.load_preset({source!r}{case})"
+    if arguments and len(bound := f"{loaded}.bind({', '.join(arguments)})") <= 88:
+        loaded = bound
+    elif arguments:
+        loaded += ".bind(\n" + "".join(f"    {each},\n" for each in arguments) + ")"
     ends = repr([*state.explored.detectors])
     return f"import optipath as op\n\n{loaded}\n{_PRINTED.format(ends=ends)}"
-
-
-def _by_name(arguments: Mapping[str, str]) -> list[str]:
-    """Return arguments; in one mapping those whose names Python keeps for itself."""
-    stored = [f"{name!r}: {text}" for name, text in arguments.items() if iskeyword(name)]
-    plain = [f"{name}={text}" for name, text in arguments.items() if not iskeyword(name)]
-    return [*plain, f"**{{{', '.join(stored)}}}"] if stored else plain
 
 
 def _value(state: ReadState, name: str, value: Any) -> str:
