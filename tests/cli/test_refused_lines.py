@@ -5,7 +5,7 @@ import pytest
 from tables import rows
 
 BEHIND = "is unknown; options of a command stand behind its name, those of a preset behind that"
-LEFT = "belongs to no option; leave it out, or quote words with spaces between: '30 deg'"
+LEFT = "belongs to no option; leave it out, or quote words: '30 deg'"
 REFUSED = [
     ("run npgr62", "'npgr62'", "did you mean 'npgr026'"),
     ("run npgr026 --detla 3", "option '--detla' is unknown; did you mean '--delta'?"),
@@ -87,8 +87,8 @@ PLOTS = [
     ("--kind curve --x delta --x rho --y S0,S1", "of one quantity, and --y names 2; give one"),
     ("--kind curve --x delta --x rho --x phi", "--kind curve is along two parameters at most"),
     ("--kind poincare --x delta --x rho", "one parameter at most"),
-    ("--kind curve --filter none,0,20", "'filter' has the word 'none' among its values"),
-    ("--kind bench --rho 30", "the picture 'geometry', which has this path in space"),
+    ("--kind curve --filter none,0,20", "'filter' has 'none' among its values"),
+    ("--kind bench --rho 30", "which light leaves at 'E'; draw 'geometry'"),
     ("--kind ellipse --delta 0:90:4", "--kind ellipse is along no parameter, and --delta varies"),
 ]
 REFUSED += [

@@ -246,10 +246,10 @@ def test_what_is_wrong_is_told():
         (lambda: SWEEP.optipath.curve("S0", "angel"), "coordinate 'angel' is unknown"),
         (SWEEP.isel(angle=0, intensity=0).optipath.curve, "no dimension with several values"),
         (lambda: ALONE[["S0"]].optipath.curve("DoP"), "variable 'DoP' is unknown"),
-        (WORDS.optipath.curve, "has words among its values"),
+        (WORDS.optipath.curve, "has words; choose one"),
         (TOGETHER.optipath.curve, "has the coordinates angle and intensity; say which"),
         (lambda: TOGETHER.optipath.map("S0", "angle"), "a picture goes over 2 dimensions"),
-        (SHARES.optipath.curve, "the detectors reflected and transmitted; say which"),
+        (SHARES.optipath.curve, "the detectors reflected and transmitted; say detector"),
         (lambda: SHARES.optipath.curve(detector="three"), "detector 'three' is unknown"),
         (LINEAR.optipath.poincare, "components that are not read"),
     ):

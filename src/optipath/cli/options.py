@@ -63,8 +63,7 @@ class StrictCommand(click.Command):
                 raise click.UsageError(f"{one.opts[0]} is given {count} times; give it once")
         if left:
             raise click.UsageError(
-                f"'{left[0]}' belongs to no option; leave it out, or quote words with spaces "
-                f"between: '30 deg'"
+                f"'{left[0]}' belongs to no option; leave it out, or quote words: '30 deg'"
             )
         return left
 

@@ -154,8 +154,8 @@ def _stokes(request: PlotRequest) -> Any:
 
     if len(request.ends) > MOST:
         raise ParameterError(
-            f"the path has {len(request.ends)} detectors, and their bars are told apart up to "
-            f"{MOST}; add --detector {request.ends[0]}"
+            f"the path has {len(request.ends)} detectors, and a picture {MOST} at most; "
+            f"add --detector {request.ends[0]}"
         )
     lights, known = request.path.trace_all(), request.published
     published = {name: known[name] for name in request.ends if name in known}

@@ -108,8 +108,7 @@ class PresetGroup(WholeHelp):
         own = {*path.parameters, *path.choices}
         if taken := sorted(own & {*names, *flags, "case", "help", "h"}):
             raise PresetError(
-                f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option of the "
-                f"command line; rename it in the file"
+                f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option; rename it there"
             )
 
         def callback(*, cases: tuple[str, ...], **texts: Any) -> None:
@@ -120,9 +119,8 @@ class PresetGroup(WholeHelp):
             if not self.ranges and chosen[0].axes:
                 raise ParameterError(
                     *[
-                        f"{flag(name)} is given several values, {shown(texts[name])}, of which "
-                        f"{command} takes one; give one, or write 'optipath run' or "
-                        f"'optipath sweep'"
+                        f"{flag(name)} is given several values, {shown(texts[name])}; give one, or "
+                        f"write 'optipath run' or 'optipath sweep'"
                         for name in chosen[0].axes
                     ]
                 )
@@ -229,6 +227,7 @@ class Cases(list[Chosen]):
         """Return what an action makes of each case, by its name."""
         results: dict[str, T] = {}
         having: dict[Fault, list[str]] = {}
+        faults: list[Fault] = []
         for chosen in self:
             case = chosen.case or ""
             try:
@@ -236,15 +235,11 @@ class Cases(list[Chosen]):
             except OptipathError as error:
                 for fault in error.faults:
                     having.setdefault(fault, []).append(case)
-        if having:
-            raise ParameterError(
-                *[
-                    fault.under(
-                        "" if len(of) == len(self) else f"case{'s' * (len(of) > 1)} {listed(of)}"
-                    )
-                    for fault, of in having.items()
-                ]
-            )
+        for fault, of in having.items():
+            where = "" if len(of) == len(self) else f"case{'s' * (len(of) > 1)} {listed(of)}"
+            faults.append(fault.under(where))
+        if faults:
+            raise ParameterError(*faults)
         return results
 
     def say_json(self, results: Mapping[str, T], as_json: Callable[[T], dict[str, Any]]) -> None:

@@ -115,10 +115,7 @@ def _values(parameter: Parameter, texts: Sequence[str], unit: str = "") -> list[
         for text in texts
     ]
     if (count := sum(one.given.size for one in results)) > _MOST:
-        raise SurfaceError(
-            f"--{parameter.name} gives {count:,} values, of which each has tables of its own; give "
-            f"{_MOST:,} at most"
-        )
+        raise SurfaceError(f"--{parameter.name} gives {count:,} values; give {_MOST:,} at most")
     return results
 
 
@@ -140,10 +137,8 @@ def _numbers_of(option: str, text: str, usual: str, counts: tuple[int, ...]) -> 
         results = tuple([kind(part) for part in text.split(",")])
         if len(results) in counts:
             return results
-    raise SurfaceError(
-        f"{option} takes {' or '.join(map(str, counts))} numbers with commas between, such as "
-        f"{usual}, and not {shown(text)}"
-    )
+    most = " or ".join(map(str, counts))
+    raise SurfaceError(f"{option} takes {most} numbers, such as {usual}, not {shown(text)}")
 
 
 def _walks(

@@ -27,12 +27,9 @@ def own_axes(argument: Any, size: tuple[float, float]) -> Axes:
     """Return the axes that are given, or those of a new figure that no window belongs to."""
     if argument is None:
         return own_lines(Figure(figsize=size, layout="constrained").add_subplot())
-    if not isinstance(argument, Axes):
-        raise OptipathError(f"ax is {shown(argument)}; give Axes of Matplotlib, or leave it out")
-    if argument.name != "rectilinear":
+    if not (isinstance(argument, Axes) and argument.name == "rectilinear"):
         raise OptipathError(
-            f"ax has the projection '{argument.name}', and the picture is a flat one; give plain "
-            f"Axes, as figure.add_subplot() makes them, or leave it out"
+            f"ax is {shown(argument)}; give flat Axes, as figure.add_subplot() makes them, or none"
         )
     return argument
 

@@ -59,8 +59,7 @@ def poincare(dataset: Any, x: str | None, ax: Any, detector: str | None) -> Any:
     stokes = np.stack([numbers_of(there, each, [along]) for each in components], axis=-1)
     if np.isnan(stokes).any():
         raise OptipathError(
-            "the light has components that are not read, and a sphere shows all; sweep "
-            "path.reading('stokes')"
+            "the light has components that are not read; sweep path.reading('stokes')"
         )
     from optipath.plots import poincare as sphere  # noqa: PLC0415 - in space
 
@@ -77,8 +76,7 @@ def at_detector(dataset: Any, detector: str | None) -> Any:
     if detector is None:
         if DETECTOR in dataset.dims and len(known) > 1:
             raise OptipathError(
-                f"the Dataset has the detectors {listed(known)}; say which, by "
-                f"detector='{known[0]}'"
+                f"the Dataset has the detectors {listed(known)}; say detector='{known[0]}'"
             )
         return dataset.squeeze(DETECTOR) if DETECTOR in dataset.dims else dataset
     if not known:
@@ -127,8 +125,7 @@ def _axis(dataset: Any, name: str) -> AlongAxis:
     numbers = np.asarray(coordinate.values)
     if numbers.dtype.kind not in "fiu":
         raise OptipathError(
-            f"coordinate '{name}' has words among its values, and an axis is of numbers; choose "
-            f"one, dataset.isel({coordinate.dims[0]}=0)"
+            f"coordinate '{name}' has words; choose one, dataset.isel({coordinate.dims[0]}=0)"
         )
     unit = str(coordinate.attrs.get("units", ""))
     help_text = str(coordinate.attrs.get("long_name", ""))

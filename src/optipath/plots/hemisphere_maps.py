@@ -283,8 +283,7 @@ def beside_facets(
     seen = SeenSide.of(measured, "reflected", wavelength, source)
     if measured.seen.events != 1:
         raise SurfaceError(
-            "the model knows only light that is scattered once, and photons were measured after "
-            "other numbers of events, too; measure with events=1"
+            "photons were measured after other numbers of events than one; measure with events=1"
         )
     panel = own_panel(axes, (3, 4), (12.4, 9.2))
     result = measured.stokes(seen.source).values

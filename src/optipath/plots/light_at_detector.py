@@ -167,23 +167,17 @@ def _check_numbers(
     name: str, numbers: npt.NDArray[Any], argument: npt.NDArray[Any], unit: str
 ) -> None:
     """Refuse what no axis can have: words, complex numbers, and one value alone."""
-    if numbers.dtype.kind in "USO" or argument.dtype.kind == "O":
-        words = [str(each) for each in numbers.ravel().tolist()]
-        word = next((each for each in words if each[:1].isalpha()), "none")
+    if numbers.dtype.kind not in "biuf" or argument.dtype.kind == "O":
+        texts = [str(each) for each in numbers.ravel().tolist()]
+        odd = next((text for text in texts if text[:1].isalpha()), texts[0])
         raise ParameterError(
-            f"parameter '{name}' has the word {shown(word)} among its values, and an axis is of "
+            f"parameter '{name}' has {shown(odd)} among its values, and an axis is of real "
             f"numbers; give it by itself, {name}=..., in a picture of another parameter"
-        )
-    if numbers.dtype.kind == "c":
-        raise ParameterError(
-            f"parameter '{name}' is complex, and an axis is of real numbers; let n and k be "
-            f"parameters of their own, as op.Material(op.Parameter('n'), op.Parameter('k'))"
         )
     if (different := np.unique(numbers)).size < 2:
         one = f"{different[0]:.15g} {unit}".rstrip() if different.size else "none"
         raise ParameterError(
-            f"values of '{name}' are {one} alone; give two or more, such as '0 deg:90 deg:91', or "
-            f"leave them out"
+            f"values of '{name}' are {one} alone; give two or more, such as '0 deg:90 deg:91'"
         )
 
 

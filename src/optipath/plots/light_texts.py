@@ -26,10 +26,7 @@ MOST = 6
 def known_light(light: Any) -> Light:
     """Return what is a light, with numbers that are known."""
     if not isinstance(light, Light):
-        raise OptipathError(
-            f"{shown(light)} is no light; give a Light, as path.trace() returns it or "
-            "op.Light([S0, S1, S2, S3]) makes it"
-        )
+        raise OptipathError(f"{shown(light)} is no light; give a Light, as path.trace() returns it")
     check_known("a picture of light", light.stokes)
     return light
 
@@ -67,14 +64,12 @@ def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:
             )
     elif known_light(light).ndim > 1:
         raise OptipathError(
-            f"light of shape {light.shape} is more than a row; give one row of it, "
-            f"light[{', '.join('0' for _ in light.shape[1:])}], or light.reshape(n)"
+            f"light of shape {light.shape} is more than a row; give one row, or light.reshape(n)"
         )
     count = len(light) if isinstance(light, Mapping) else light.size
     if not 0 < count <= MOST:
         raise OptipathError(
-            f"{count} lights are not drawn in one picture, which tells apart up to {MOST}; give 1 "
-            f"to {MOST}, such as light[:{MOST}] or every so many, light[::step]"
+            f"{count} lights are not drawn in one picture; give 1 to {MOST}, such as light[:{MOST}]"
         )
     if isinstance(light, Mapping):
         return several

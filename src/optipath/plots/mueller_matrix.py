@@ -74,15 +74,12 @@ def mueller(matrix: Mueller, ax: Axes | None = None) -> Axes:
 def _known_matrix(matrix: Any) -> Mueller:
     if not isinstance(matrix, Mueller):
         raise OptipathError(
-            f"{shown(matrix)} is no Mueller matrix; give path.mueller(), element.mueller() or "
-            "op.Mueller(array)"
+            f"{shown(matrix)} is no Mueller matrix; give one, as path.mueller() returns it"
         )
     check_known("a picture of a Mueller matrix", matrix.matrix)
     if matrix.shape:
-        first = ", ".join("0" for _ in matrix.shape)
         raise OptipathError(
-            f"the Mueller matrix is a batch of shape {matrix.shape}, and a picture is of one; "
-            f"give one of it, matrix[{first}]"
+            f"the Mueller matrix is a batch of shape {matrix.shape}; give one of it by its index"
         )
     return matrix
 

@@ -270,8 +270,7 @@ def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
     if len(groups) > 2:
         kinds = [" and ".join(each.name for each in group) for group in groups.values()]
         raise OptipathError(
-            f"{listed(kinds)} have {len(groups)} units, and a picture has two axes, left and "
-            f"right; draw those of one or two units, and the others in another picture"
+            f"{listed(kinds)} have {len(groups)} units; draw those of one or two units in a picture"
         )
     return [*groups.values()]
 

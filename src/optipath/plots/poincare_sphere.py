@@ -81,8 +81,7 @@ def poincare(
     light = known_light(light)
     if light.ndim > 1 or not 0 < light.size <= _MOST:
         raise OptipathError(
-            f"light of shape {light.shape} is no trail; give one, or 1 to {_MOST} in a row, "
-            "as light[0] or light[::10] picks them"
+            f"light of shape {light.shape} is no trail; give 1 to {_MOST} in a row, as light[::10]"
         )
     if (by is None) != (label == ""):
         raise OptipathError(
@@ -94,8 +93,7 @@ def poincare(
         there = values.dtype.kind in "iuf" and light.ndim and values.shape == light.shape
         if not (there and np.isfinite(values).all()):
             raise OptipathError(
-                f"by is {shown(by)}, and light has the shape {light.shape}; give a finite number "
-                "for each light of a trail, in the unit that label says"
+                f"by is {shown(by)}; give a finite number for each light of a trail {light.shape}"
             )
         values = values.astype(float)
     ax = sphere_axes(ax, (5.4, 5.6) if values is None else (6.4, 5.6))
@@ -171,8 +169,7 @@ def sphere_axes(argument: Any, size: tuple[float, float]) -> Axes3D:
         own_lines(argument)
     if not isinstance(argument, Axes3D):
         raise OptipathError(
-            f"ax is {shown(argument)}, and a sphere needs axes of three dimensions; give "
-            'figure.add_subplot(projection="3d"), or leave it out'
+            f'ax is {shown(argument)}; give figure.add_subplot(projection="3d"), or leave it out'
         )
     if not any(line.get_gid() == _MARK for line in argument.get_lines()):
         _draw_sphere(argument)

@@ -109,13 +109,10 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
         front = complex(front.real)
     if front.imag or not front.real:
         raise OptipathError(
-            f"outside is {_written(front)}; give the index of a clear medium, n above 0: in one "
-            f"that absorbs, light has no angle of incidence of its own"
+            f"outside is {_written(front)}; give the index of a clear medium, n above 0"
         )
     if behind == front:
-        raise OptipathError(
-            f"index and outside are both {_written(front)}, and nothing is reflected"
-        )
+        raise OptipathError(f"index and outside are both {_written(front)}; nothing is reflected")
     parameter, messages = Wavelength(), []
     texts = _distinguished(behind, front)
     for text, (name, argument) in zip(texts, arguments.items(), strict=True):

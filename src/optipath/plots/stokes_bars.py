@@ -197,8 +197,7 @@ def _numbers(what: str, argument: Any, shape: tuple[int, ...]) -> Numbers:
     numbers = array_of(what, argument, OptipathError)
     if numbers.shape != shape or numbers.dtype.kind not in "iuf" or np.isinf(numbers).any():
         raise OptipathError(
-            f"{what} is {shown(argument)}; give S0, S1, S2 and S3, finite numbers of shape "
-            f"{shape}, and NaN for what is missing"
+            f"{what} is {shown(argument)}; give finite numbers of shape {shape}, NaN where missing"
         )
     return numbers.astype(float)
 

@@ -372,8 +372,7 @@ def flat_sheet(scene: Scene) -> FlatSheet:
     out = [ray.end or ray.start for ray in scene.rays if abs(ray.axes[2] @ normal) > _IN_PLANE]
     if out:
         raise PathError(
-            f"bench draws set-ups that lie in one plane, but light leaves that at '{out[0]}'; draw "
-            f"the picture 'geometry', which has this path in space"
+            f"bench draws set-ups in one plane, which light leaves at '{out[0]}'; draw 'geometry'"
         )
     sheet, origin = np.array([right, up]), scene.nodes[0].at
     at = {n.name: sheet @ (n.at - origin) / scene.unit for n in scene.nodes}

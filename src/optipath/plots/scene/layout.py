@@ -201,8 +201,7 @@ def scene_of(
     for each in lights:
         if not np.isfinite(each.light.stokes).all():
             raise PathError(
-                f"{what} draws ways that light can go, but on '{each.name}' the light is not a "
-                "number; give values that there are"
+                f"{what} draws light, which is not a number on '{each.name}'; give other values"
             )
     wiring = Wiring(with_followed(path.graph)[0], keep="all")
     placing = Placing(wiring)
