@@ -170,13 +170,8 @@ class OutsideDomain(_IndexOrMaterial):
     minimum: float = LEAST  # Beyond, waves across a layer have squares that vanish.
     besides: str = ", since light comes from there"
 
-    @property
-    def of_k(self) -> Domain:
-        """What k may be."""
-        return NoAbsorption("extinction coefficient", besides=self.besides)
-
     def domains_of(self, material: Material) -> tuple[Domain, Domain]:
-        return self, self.of_k
+        return self, NoAbsorption("extinction coefficient", besides=self.besides)
 
 
 class FollowedIndex(Followed, IndexDomain):

@@ -156,11 +156,8 @@ OptionalWavelength: TypeAlias = Annotated[
     Quantity, replace(WAVELENGTH, name="wavelength", own_unit="nm", optional=True)
 ]
 Birefringence: TypeAlias = Annotated[Quantity, Domain("birefringence", minimum=-10, maximum=10)]
-EXTINCTION = ExtinctionDomain(
-    "extinction ratio",
-    minimum=1.000001,
-    besides=", or infinity (a BeamSplitter does not polarise)",
-)
+_ENDLESS = ", or infinity (a BeamSplitter does not polarise)"
+EXTINCTION = ExtinctionDomain("extinction ratio", minimum=1.000001, besides=_ENDLESS)
 ExtinctionRatio: TypeAlias = Annotated[Quantity, EXTINCTION]
 HANDEDNESSES = ("right", "left")
 Handedness: TypeAlias = Annotated[str, Choice("handedness", words=HANDEDNESSES)]
