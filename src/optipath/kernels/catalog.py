@@ -124,10 +124,9 @@ def _at_event(method: str) -> Kernel:
     name, cheaper = f"Fresnel reflection or transmission ({method}", None
     without = [kernel.without[1] for kernel in both if kernel.without]
     if len(without) == len(both):
-        lossless = Made(at_event, *without)
         # Of (event, n1, n, k, cos, sin), k is the fourth.
         known = _NORMAL_OR_GRAZING if method == "stable" else ()
-        cheaper = 3, Kernel(f"{name}, lossless)", BLOCK, lossless, known=known)
+        cheaper = 3, Kernel(f"{name}, lossless)", BLOCK, Made(at_event, *without), known=known)
     known = _LETS_THROUGH if method == "stable" else ()
     return Kernel(f"{name})", BLOCK, Made(at_event, *both), cheaper, known=known)
 

@@ -99,7 +99,7 @@ _TERMS = 13
 """The step between nodes, off by exp(-(pi / step)^2), and the number of nodes of more weight."""
 
 _NODES = [(_STEP * (i + 0.5)) ** 2 for i in range(_TERMS)]
-_WEIGHTS = [2.0 * _STEP / pi * exp(-node) for node in _NODES]
+_WEIGHTS = {node: 2.0 * _STEP / pi * exp(-node) for node in _NODES}
 
 
 def complementary_error(xp: Primitives) -> Callable[[Any], Any]:
@@ -113,9 +113,7 @@ def complementary_error(xp: Primitives) -> Callable[[Any], Any]:
 
     def erfc(x: Any) -> Any:
         square = x * x
-        series = sum(
-            weight / (node + square) for node, weight in zip(_NODES, _WEIGHTS, strict=True)
-        )
+        series = sum(weight / (node + square) for node, weight in _WEIGHTS.items())
         residue = exponential(-2.0 * pi / _STEP * x)
         return x * exponential(-square) * series + 2.0 * residue / (1.0 + residue)
 

@@ -121,9 +121,8 @@ def depolarizing_dichroism_along(xp: Primitives) -> KernelFunction:
     generator, exponential, excess = _generator(xp), depolarizing_lorentz(xp), _excess(xp)
 
     def depolarize(depolarization: Any, *rates: Any) -> tuple[Any, ...]:
-        length = rates[-1]
-        shift = excess(*rates[:2]) * length
-        return exponential(*generator(*rates), depolarization * length, shift)
+        lost, shift = depolarization * rates[-1], excess(*rates[:2]) * rates[-1]
+        return exponential(*generator(*rates), lost, shift)
 
     return depolarize
 
@@ -161,13 +160,8 @@ def lorentz(xp: Primitives) -> KernelFunction:
 def retardance(xp: Primitives) -> KernelFunction:
     """Make ``(q1, q2, q3) ->`` the sixteen numbers of a rotation of the sphere (Rodrigues)."""
     exponential = lorentz(xp)
-
-    def rotate(q1: Any, q2: Any, q3: Any) -> tuple[Any, ...]:
-        # No light is lost, not even by a rounding.
-        _, *rest = exponential(0.0, 0.0, 0.0, q1, q2, q3, 0.0)
-        return 1.0, *rest
-
-    return rotate
+    # No light is lost, not even by a rounding.
+    return lambda q1, q2, q3: (1.0, *exponential(0.0, 0.0, 0.0, q1, q2, q3, 0.0)[1:])
 
 
 def _parts(xp: Primitives) -> KernelFunction:

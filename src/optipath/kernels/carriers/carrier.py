@@ -137,10 +137,6 @@ JonesState: TypeAlias = tuple[Columns, Any]
 class JonesCarrier(Carrier):
     """Carries light as two Jones columns, with an integer exponent."""
 
-    def __init__(self, xp: Primitives) -> None:
-        super().__init__(xp)
-        self._incoherent = ScaledCarrier(xp)
-
     def emit(self, stokes: Components, _: int = 4) -> JonesState:
         return self._resolved(_columns(self.xp, carry(self.xp, stokes)), 0)
 
@@ -152,7 +148,8 @@ class JonesCarrier(Carrier):
         return self._resolved(structure.jones(self.xp, numbers, columns), exponent)
 
     def add(self, first: JonesState, second: JonesState) -> JonesState:
-        carried, exponent = self._incoherent.add(self._carried(first), self._carried(second))
+        lights = self._carried(first), self._carried(second)
+        carried, exponent = ScaledCarrier(self.xp).add(*lights)
         # Fields have half the exponent of intensities, which is made even.
         odd = exponent % 2
         carried = tuple(self.xp.ldexp(component, odd) for component in carried)

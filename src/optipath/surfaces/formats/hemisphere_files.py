@@ -200,9 +200,8 @@ def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
             f"it has layout {message['layout']}, but this version reads layout {LAYOUT}; load "
             f"it by optipath {dataset.attrs['optipath_version']}"
         )
-    n, k = [
-        dataset[name].to_numpy().reshape(message["wavelengths"]) for name in ("index_n", "index_k")
-    ]
+    shape = message["wavelengths"]
+    n, k = (dataset[name].to_numpy().reshape(shape) for name in ("index_n", "index_k"))
     beam = PhotonBeam(
         sample=sample_of(message["sample"], sample),  # type: ignore[arg-type]
         indices=SampleIndices(message["outside"], tuple(message["inner"]), n, k),
