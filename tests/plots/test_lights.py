@@ -294,7 +294,10 @@ TWO = op.Light(np.zeros((2, 4)))
         (lambda: stokes(LINEAR, published=["a", "b", "c", "d"]), "published"),
         (lambda: stokes(LINEAR, published=[1.0, np.inf, 0.0, 0.0]), "NaN where missing"),
         (lambda: stokes(ROW, published=[1.0, 0.0, 0.0, 0.0]), r"numbers of shape \(6, 4\)"),
-        (lambda: stokes({"eye": LINEAR}, published=[1.0, 0.0, 0.0, 0.0]), "lights have names"),
+        (
+            lambda: stokes({"eye": LINEAR}, published=[1.0, 0.0, 0.0, 0.0]),
+            "give them by the names of lights",
+        ),
         (lambda: stokes({"eye": LINEAR}, published={"eey": [1.0, 0, 0, 0]}), "did you mean 'eye'"),
         (
             lambda: mueller(op.Mueller(np.zeros((3, 4, 4)))),

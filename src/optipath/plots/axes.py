@@ -44,11 +44,8 @@ def own_panel(argument: Any, shape: tuple[int, int], size: tuple[float, float]) 
     panel = np.array(argument, object)
     flat = all(isinstance(ax, Axes) and ax.name == "rectilinear" for ax in panel.flat)
     if not flat or panel.size != np.prod(shape):
-        rows, columns = shape
-        raise OptipathError(
-            f"axes are {shown(argument)}; give {rows} x {columns} Axes of Matplotlib, as "
-            f"figure.subplots({rows}, {columns}) makes them, or leave them out"
-        )
+        wanted = "{} x {} Axes of Matplotlib, as figure.subplots({}, {})".format(*shape, *shape)
+        raise OptipathError(f"axes are {shown(argument)}; give {wanted} makes them, or none")
     return panel.reshape(shape)
 
 

@@ -90,9 +90,7 @@ def drawn_quantities(names: Any) -> list[DrawnQuantity]:
     """Return the quantities of some names, which may be written in small letters."""
     argument = [names] if isinstance(names, str) else names
     if not isinstance(argument, (list, tuple)) or not argument:
-        raise OptipathError(
-            f"quantities are {shown(names)}; give a name such as 'S0', or several: ('S0', 'DoLP')"
-        )
+        raise OptipathError(f"quantities are {shown(names)}; give names such as 'S0', 'DoLP'")
     known = {each.variable: each for each in QUANTITIES}
     small = {name.lower(): name for name in known}
     read = [small.get(name.lower(), name) if isinstance(name, str) else name for name in argument]

@@ -84,9 +84,7 @@ def poincare(
             f"light of shape {light.shape} is no trail; give 1 to {_MOST} in a row, as light[::10]"
         )
     if (by is None) != (label == ""):
-        raise OptipathError(
-            "by and label belong together: give both, as by=angles, label='delta (deg)', or none"
-        )
+        raise OptipathError("by and label belong together: give both, or none")
     values = None
     if by is not None:
         values = array_of("by", by, OptipathError)

@@ -181,7 +181,7 @@ def published_for(published: Any, light: Any, several: Mapping[str, Any]) -> dic
     if not isinstance(published, Mapping):
         if isinstance(light, Mapping):
             raise OptipathError(
-                f"published is {shown(published)}, and lights have names; give a mapping by them"
+                f"published is {shown(published)}; give them by the names of lights"
             )
         rows = _numbers("published", published, (*light.shape, 4)).reshape(-1, 4)
         return dict(zip(several, rows, strict=True))
