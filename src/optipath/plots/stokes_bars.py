@@ -180,9 +180,7 @@ def published_for(published: Any, light: Any, several: Mapping[str, Any]) -> dic
         return {}
     if not isinstance(published, Mapping):
         if isinstance(light, Mapping):
-            raise OptipathError(
-                f"published is {shown(published)}; give them by the names of lights"
-            )
+            raise OptipathError(f"published is {shown(published)}; give them by names of lights")
         rows = _numbers("published", published, (*light.shape, 4)).reshape(-1, 4)
         return dict(zip(several, rows, strict=True))
     faults = [fault for name in published for fault in unknown("published", name, several)]
