@@ -296,7 +296,7 @@ TWO = op.Light(np.zeros((2, 4)))
         (lambda: stokes(ROW, published=[1.0, 0.0, 0.0, 0.0]), r"numbers of shape \(6, 4\)"),
         (
             lambda: stokes({"eye": LINEAR}, published=[1.0, 0.0, 0.0, 0.0]),
-            "give them by the names of lights",
+            "give them by names of lights",
         ),
         (lambda: stokes({"eye": LINEAR}, published={"eey": [1.0, 0, 0, 0]}), "did you mean 'eye'"),
         (
