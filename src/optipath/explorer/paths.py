@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, unknown
-from optipath.materials.index_domains import NoAbsorption
+from optipath.materials.index_domains import OutsideDomain
 from optipath.materials.named_materials import WAVELENGTH, places_of, stands_for_index
 from optipath.paths.energy import KEEPING
 from optipath.paths.files.presets import load_preset, preset_descriptions
@@ -73,10 +73,7 @@ class ExploredPath:
             name
             for name in opened
             if stands_for_index(self.uses, name)
-            and not any(
-                isinstance(getattr(use.domain, "of_k", None), NoAbsorption)
-                for use in places_of(self.uses, name)
-            )
+            and not any(isinstance(use.domain, OutsideDomain) for use in places_of(self.uses, name))
         )
 
     @property
