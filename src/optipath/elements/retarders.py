@@ -122,15 +122,21 @@ class Waveplate(Element, kind="waveplate"):
     azimuth: Angle = 0.0
 
     @classmethod
-    def quarter(cls, at: Any, crystal: Any = "quartz", **others: Any) -> Self:
+    def quarter(
+        cls,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
+    ) -> Self:
         """Return a quarter-wave plate by the wavelength at which it is one.
 
         Parameters
         ----------
-        at, crystal
+        at, crystal, order, angle, azimuth
             As `retarding` takes them.
-        **others : int, float, array_like or Parameter
-            ``order``, ``angle`` and ``azimuth``, as it takes them.
 
         Returns
         -------
@@ -142,22 +148,30 @@ class Waveplate(Element, kind="waveplate"):
         >>> round(Waveplate.quarter("550 nm", order=10).thickness * 1e6, 1)
         615.5
         """
-        return cls.retarding(math.pi / 2, at, crystal, **others)
+        return cls.retarding(math.pi / 2, at, crystal, order=order, angle=angle, azimuth=azimuth)
 
     @classmethod
-    def half(cls, at: Any, crystal: Any = "quartz", **others: Any) -> Self:
+    def half(
+        cls,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
+    ) -> Self:
         """Return a half-wave plate by the wavelength at which it is one.
 
         Parameters
         ----------
-        at, crystal, **others
-            As in `quarter`.
+        at, crystal, order, angle, azimuth
+            As `retarding` takes them.
 
         Returns
         -------
         Waveplate
         """
-        return cls.retarding(math.pi, at, crystal, **others)
+        return cls.retarding(math.pi, at, crystal, order=order, angle=angle, azimuth=azimuth)
 
     @classmethod
     def retarding(

@@ -180,8 +180,10 @@ class Material:
         *,
         k: float | None = None,
         unit: str = "",
+        interpolation: str = "linear",
+        extrapolate: str = "",
         name: str = "",
-        **others: Any,
+        wavelength: Any = None,
     ) -> Self:
         """Return a material of a table in a file, with a line for each wavelength.
 
@@ -195,10 +197,8 @@ class Material:
             Of a file without a column k.
         unit : str, optional
             Of the wavelengths, where the first line has none.
-        name : str, optional
-            What sentences call it; the name of the file by default.
-        **others
-            All that `tabulated` takes besides.
+        interpolation, extrapolate, name, wavelength
+            As `tabulated` takes them; the name is that of the file by default.
 
         Returns
         -------
@@ -207,9 +207,15 @@ class Material:
         names = ["n", "k"] if k is None else ["n"]
         cures = {"k": "; or give k=0.0 where nothing absorbs"}
         table = read_columns(path, names, unit=unit, cures=cures)
-        given = {"k": k, **table.columns, "name": name or table.title, **others}
         with told_as(ValueFault, str(path)):
-            return cls.tabulated(table.wavelengths, **given)
+            return cls.tabulated(
+                table.wavelengths,
+                **{"k": k, **table.columns},
+                interpolation=interpolation,
+                extrapolate=extrapolate,
+                name=name or table.title,
+                wavelength=wavelength,
+            )
 
     @classmethod
     def sellmeier(

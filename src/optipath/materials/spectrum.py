@@ -140,7 +140,13 @@ class Spectrum(Curve):
 
     @classmethod
     def from_csv(
-        cls, path: str | PathLike[str], column: str = "power", *, unit: str = "", **others: Any
+        cls,
+        path: str | PathLike[str],
+        column: str = "power",
+        *,
+        unit: str = "",
+        outside: Any = None,
+        name: str = "",
     ) -> Self:
         """Return the spectrum through the samples of a file, as `sampled` does.
 
@@ -153,18 +159,17 @@ class Spectrum(Curve):
             The name of the column of values.
         unit : str, optional
             Of the wavelengths, where the first line has none.
-        **others
-            ``outside`` and ``name``, as `sampled` takes them; the name is that of the file by
-            default.
+        outside, name
+            As `sampled` takes them; the name is that of the file by default.
 
         Returns
         -------
         Spectrum
         """
         read = read_columns(path, [column], unit=unit)
-        given = {"name": read.title, **others}
+        values, title = read.columns[column], name or read.title
         with told_as(ValueFault, str(path)):
-            return cls.sampled(read.wavelengths, read.columns[column], **given)
+            return cls.sampled(read.wavelengths, values, outside=outside, name=title)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:

@@ -70,7 +70,7 @@ class ScalarRunner:
         self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
         self._looked_at: set[frozenset[InputKey]] = set()
         self.following = FollowingFloats(self.inputs) if self.inputs.computed else None
-        self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
+        self._default_call: tuple[FloatPath, list[tuple[str, Any]], frozenset[str]] | None = None
 
     def fast_path(self, parameters: Mapping[str, Any], place: int) -> tuple[Any, ...] | None:
         """Return the light at one end for plain floats, unread; None where it takes more care."""
@@ -106,7 +106,9 @@ class ScalarRunner:
             result = function.path(*[arguments.numbers[name] for name in function.names])
         except _REFUSED:
             return None
-        return result and [result[first : first + 4] for first in range(0, len(result), 4)]
+        if result is None:
+            return None
+        return [result[first : first + 4] for first in range(0, len(result), 4)]
 
     def function(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         """Return the function for what is not there, as `Batch.nothing`, if it can be."""
