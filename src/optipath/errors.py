@@ -197,6 +197,9 @@ class OptipathError(Exception):
         """Return the first faults, one a line, and how many more there are; or a single one."""
         return self.written("python")
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({str(self)!r})"
+
     def within(self, medium: Medium) -> list[Fault]:
         """Return the faults of what is written in a medium, whoever reads of it."""
         return [fault.within(medium) for fault in self.faults]

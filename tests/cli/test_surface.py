@@ -213,7 +213,7 @@ WRONG = {
         "--photons 1e999": "'1e999' is no whole number; write one such as 1000, or 1e6",
         "--threads 5000": "threads is 5000; give 1,024 at most",
         "--tolerance nan": "tolerance is nan; give a standard error within 0 .. 1",
-        "--azimuth 10,20,30": "--azimuth: '10,20,30' is not a quantity",
+        "--azimuth 10,20,30": "--azimuth takes one angle, and '10,20,30' is several; give one",
         "--stokes 1,0,0": "--stokes takes 4 numbers, such as 1,0,0,0",
         "--stokes 1,2,0,0": "stokes is [1.0, 2.0, 0.0, 0.0]; give S0 > 0 and S1^2 + S2^2",
         "--cells 1": "the sample: cells must be a whole number from 2",

@@ -23,7 +23,6 @@ from optipath.surfaces.walk.beam import UNPOLARISED
 from optipath.values.files import check_form
 from optipath.values.parameters import Parameter
 from optipath.values.text import AxisValues, read_entries
-from optipath.values.units import parse_quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -105,7 +104,7 @@ REDRAWING = (SURFACES, CELLS, SAMPLE_SEED)
 _MOST = 1000
 """How many values there may be of which each has tables."""
 
-_INCIDENCE = Parameter("incidence", unit="deg")
+_INCIDENCE, _AZIMUTH = (Parameter(name, unit="deg") for name in ("incidence", "azimuth"))
 
 
 def _values(parameter: Parameter, texts: Sequence[str], unit: str = "") -> list[AxisValues]:
@@ -128,6 +127,14 @@ def _incidences_of(texts: Sequence[str]) -> list[AxisValues]:
         for one in _values(_INCIDENCE, texts, "deg")
         for at in np.ndindex(one.given.shape)
     ]
+
+
+def _azimuth_of(text: str) -> float:
+    """Return an azimuth in radians."""
+    (result,) = _values(_AZIMUTH, [text], "deg")
+    if result.given.size > 1:
+        raise SurfaceError(f"--azimuth takes one angle, and {shown(text)} is several; give one")
+    return float(result.given.item())
 
 
 def _numbers_of(option: str, text: str, usual: str, counts: tuple[int, ...]) -> tuple[Any, ...]:
@@ -162,7 +169,7 @@ def _walks(
     lights = next(iter(faults.attempt("", _values, WAVELENGTH, texts) or []), None)
     state = faults.attempt("", _numbers_of, "--stokes", stokes, "1,0,0,0", (4,))
     options |= {
-        "azimuth": faults.attempt("--azimuth", parse_quantity, azimuth, "angle", "deg") or 0.0,
+        "azimuth": faults.attempt("", _azimuth_of, azimuth) or 0.0,
         "stokes": state or UNPOLARISED,
         "wavelength": lights.given if lights else None,
     }

@@ -142,9 +142,10 @@ class _Lowering:
         light = self.lights[name, coupling.enters]
         presence = _presence(coupling.operations)
         if presence is not None and presence.known:
-            if not np.any(there := presence.numbers()):
+            if np.all(there := presence.numbers()):
+                presence = None
+            elif not np.any(there):
                 return light
-            presence = None if np.all(there) else presence
         last = len(coupling.operations) - 1
         for place, operation in enumerate(operations):
             about = {"port": True, "bounces": int(coupling.reflects and place == last)}

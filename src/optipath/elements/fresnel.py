@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import ValueFault, told_as
+from optipath.errors import ValueFault
 from optipath.kernels.carriers.structures import BLOCK
 from optipath.kernels.catalog import REFLECTION, TRANSMISSION
 from optipath.kernels.fresnel import boundary
@@ -16,10 +16,10 @@ from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import cosine, sine
 from optipath.materials.index_domains import INDEX, LIT_INDEX
 from optipath.materials.quantities import INCIDENCE
-from optipath.values.angles import CosSin, is_angle
-from optipath.values.arrays import check_broadcast, first_place
+from optipath.values.angles import CosSin, is_angle, within_right_angle
+from optipath.values.arrays import as_argument, check_broadcast, first_place
 from optipath.values.domains import Domain
-from optipath.values.jax_values import check_known, is_traced, known, namespace
+from optipath.values.jax_values import check_known, is_traced, namespace
 from optipath.values.operands import kernel_values
 from optipath.values.precision import precision
 
@@ -342,15 +342,20 @@ def number_within(domain: Domain, name: str, value: Any) -> Any:
 
 def plain_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
     """Return the cosine and the sine of an incidence; NaN where JAX traces what is no angle."""
-    with told_as(ValueFault):
-        pair = CosSin(known(cos), known(sin))
-    c = number_within(COSINE, "cos_incidence", pair.cos)
-    s = number_within(COSINE, "sin_incidence", pair.sin)
-    if pair.is_traced:
+    several = {"cos_incidence": cos, "sin_incidence": sin}
+    cos, sin = (
+        value if is_traced(value) else as_argument(name, COSINE.read(name, value))
+        for name, value in several.items()
+    )
+    check_broadcast({"cos_incidence": cos.shape, "sin_incidence": sin.shape})
+    traced = is_traced(cos) or is_traced(sin)
+    c = number_within(COSINE, "cos_incidence", cos if traced else within_right_angle(cos, sin))
+    s = number_within(COSINE, "sin_incidence", sin)
+    if traced:
         xp = namespace(c if is_traced(c) else s)
         belong = xp.abs(xp.square(c) + xp.square(s) - 1.0) <= _APART
         return xp.where(belong, c, xp.nan), s
-    if not is_angle(pair.cos, pair.sin):
+    if not is_angle(cos, sin):
         raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
     return c, s
 

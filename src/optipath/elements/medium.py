@@ -26,7 +26,6 @@ from optipath.kernels.catalog import (
     THIRD_WITH_DICHROISM,
 )
 from optipath.kernels.medium import LARGEST, LARGEST_DICHROISM
-from optipath.materials.material import K
 from optipath.materials.quantities import (
     WAVELENGTH,
     Absorption,
@@ -49,6 +48,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from optipath.kernels.kernel import Kernel
+
+
+_EXTINCTION = Domain("extinction coefficient", minimum=0.0)
 
 
 class Medium(Element, kind="medium"):
@@ -174,7 +176,7 @@ class Medium(Element, kind="medium"):
         """
         faults: list[str] = []
         numbers = []
-        for name, value, domain in (("k", k, K), ("wavelength", wavelength, WAVELENGTH)):
+        for name, value, domain in (("k", k, _EXTINCTION), ("wavelength", wavelength, WAVELENGTH)):
             with collecting(faults, ValueFault):
                 numbers.append(domain.check(name, value))
         ValueFault.raise_for(faults)

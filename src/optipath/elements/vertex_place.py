@@ -213,7 +213,7 @@ class EventFits(Agreement):
         return (
             f"light is turned by {deviation(points):.9g} deg at '{self.owner}', but a refraction "
             f"from n = {before} into n = {behind} {allowed}; move the points, or give other "
-            f"media, an event R in place of T, or bad='mask'"
+            f"media, an event R in place of T, a specular vertex, or bad='mask'"
         )
 
 

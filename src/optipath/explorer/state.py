@@ -266,6 +266,9 @@ def _value(
 ) -> Any:
     """Return what the text of a field stands for; None where it is faulty."""
     known, text = explored.parameters, arguments[name].strip()
+    if name in explored.path.choices:
+        faults.append(Fault(f"'{name}' is a choice of places; give it among places", subject=name))
+        return None
     if name not in known and name != WAVELENGTH.name:
         faults.append(unknown_parameter(name, known))
         return None

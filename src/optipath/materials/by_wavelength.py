@@ -128,7 +128,7 @@ def drude_rotation(
     return curve_at(curve, wavelength)[0]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class DrudeRotation(FormulaCurve):
     """A constant and the sum of A / (w^2 - C), w in um, times a unit; NaN at a resonance."""
 

@@ -21,7 +21,7 @@ from optipath.kernels.dispersion import (
 )
 from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.curve import Curve
-from optipath.values.domains import Domain, one_number
+from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
@@ -46,7 +46,7 @@ NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
 Coefficient: TypeAlias = tuple[str, Any, Domain]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FormulaCurve(Curve):
     """Numbers by a published formula, whose coefficients are numbers or parameters."""
 
@@ -67,8 +67,9 @@ class FormulaCurve(Curve):
             with collecting(faults, ValueFault):
                 if isinstance(value, Parameter):
                     Use(f"{name} of {self.label}", value, domain).check()
-                elif not is_traced(value):
-                    one_number(f"{name} of {self.label}", value, domain)
+                elif domain.check(f"{name} of {self.label}", value).ndim:
+                    what = f"{name} of {self.label} is {shown(value)}"
+                    raise ValueFault(f"{what}; give one number, or a Parameter for several")
         with collecting(faults, ValueFault):
             vars(self).update(span=read_span(f"span of {self.label}", self.span))
         ValueFault.raise_for(faults)
@@ -134,7 +135,7 @@ def coefficients(name: str, row: Sequence[Any], domain: Domain = REAL) -> list[C
     return [(f"{name}[{place}]", value, domain) for place, value in enumerate(row)]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sellmeier(FormulaCurve):
     """n^2 = offset + the sum of B w^2 / (w^2 - C), with w in micrometres and C in their squares.
 
@@ -175,7 +176,7 @@ class Sellmeier(FormulaCurve):
         return offset, strengths, [p * p for p in poles] if self.c is None else poles
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Cauchy(FormulaCurve):
     """n = A + B / w^2 + C / w^4 + ..., with w in micrometres.
 
@@ -335,7 +336,7 @@ class BroadeningLimit(Agreement):
         )
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class DispersionFormula(Curve):
     """The index of refraction by a formula of refractiveindex.info. Units: known_span in metres.
 

@@ -309,7 +309,10 @@ class IndicesDomain(RowDomain):
         ]
 
     def described(self) -> str:
-        return "a list of two indices or more, such as [1, 1.5, 1.33] from front to substrate"
+        return (
+            "a list of two indices or more, each a number or a parameter, such as [1, 1.5, 1.33] "
+            "from front to substrate"
+        )
 
 
 INDICES = IndicesDomain("indices of refraction")
@@ -335,7 +338,10 @@ class LengthsDomain(RowDomain):
 
     def described(self) -> str:
         count = "" if self.layers is None else f" ({self.layers})"
-        return f"a list of lengths, one for each layer between the first medium and the last{count}"
+        return (
+            f"a list of lengths, one for each layer between the first medium and the last{count}, "
+            f"each a number or a parameter"
+        )
 
 
 LENGTHS = LengthsDomain("lengths of layers", "length", own_unit="mm")

@@ -25,7 +25,7 @@ INTERPOLATIONS = ("linear", "monotone")
 EXTRAPOLATIONS = ("", "nearest", "linear")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Tabulated(Curve):
     """Numbers at sampled wavelengths in metres, exact there.
 
@@ -185,7 +185,7 @@ def _at_end(step: Any, next_step: Any, chord: Any, next_chord: Any) -> float:
     return float(slope)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PageCurve(Curve):
     """Several curves as one, at the wavelengths at which all of them are known.
 

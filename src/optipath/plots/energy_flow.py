@@ -13,7 +13,7 @@ from optipath.errors import OptipathError
 from optipath.paths.energy import energy_along
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
-from optipath.plots.light_texts import one_path
+from optipath.plots.light_texts import lights_of_one
 from optipath.plots.text import inches_of, width_of
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     >>> [text.get_text() for text in ax.texts][:4]
     ['lamp', 'gives 1', 'polarizer', 'takes 0.5 (50 %)']
     """
-    result = energy_along(*one_path(path, "energy", values))
+    result = energy_along(path, lights_of_one(path, "energy", values))
     if not all(np.isfinite(link.power) for link in result.links):
         raise OptipathError("the light is not a number on some links; give values that there are")
     rows, links = _rows_and_links(result)

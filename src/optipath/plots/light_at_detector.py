@@ -166,8 +166,9 @@ def _check_numbers(
 ) -> None:
     """Refuse what no axis can have: words, complex numbers, and one value alone."""
     if numbers.dtype.kind not in "biuf" or argument.dtype.kind == "O":
-        texts = [str(each) for each in numbers.ravel().tolist()]
-        odd = next((text for text in texts if text[:1].isalpha()), texts[0])
+        entries = numbers.ravel().tolist()
+        wrong = (e for e in entries if (e.imag if isinstance(e, complex) else str(e)[:1].isalpha()))
+        odd = next(wrong, entries[0])
         raise ParameterError(
             f"parameter '{name}' has {shown(odd)} among its values, and an axis is of real "
             f"numbers; give it by itself, {name}=..., in a picture of another parameter"

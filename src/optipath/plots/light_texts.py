@@ -31,23 +31,21 @@ def known_light(light: Any) -> Light:
     return light
 
 
-def one_path(
+def lights_of_one(
     path: Any, what: str, values: Mapping[str, Any], lights: Sequence[LightOnLink] = ()
-) -> tuple[PathGraph, Sequence[LightOnLink]]:
-    """Return a path with all its values, one each, and the light on its links, if not known."""
+) -> Sequence[LightOnLink]:
+    """Return the light on the links of a path, if it is not known; refuse a batch."""
     if not isinstance(path, PathGraph):
         raise OptipathError(f"{what} draws a path, not {shown(path)}; give a PathGraph")
     lights = lights or lights_along(path, **values)
-    parameters = path.parameters.items()
-    defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
-    path = path.bind(**{**defaults, **values})
-    shapes = {each.name: known_light(each.light).shape for each in lights}
-    for name, shape in (Values(path.graph).known_shapes | shapes).items():
+    shapes = Values(path.graph).known_shapes | {n: np.shape(v) for n, v in values.items()}
+    shapes |= {each.name: known_light(each.light).shape for each in lights}
+    for name, shape in shapes.items():
         if shape:
             raise PathError(
                 f"{what} draws one path, but {name} has the shape {shape}; give single values"
             )
-    return path, lights
+    return lights
 
 
 def lights_to_draw(light: Any, labels: Any = None) -> dict[str, Light]:

@@ -20,7 +20,13 @@ from optipath.plots.axes import own_lines
 from optipath.plots.colors import FAINT, INK, LINES, ColourScale
 from optipath.plots.labels import Label, place_labels
 from optipath.plots.light_at_detector import START, axis_of, end_of, fine_steps, varied
-from optipath.plots.light_texts import figures_text, known_light, no_ellipse, one_path, state_text
+from optipath.plots.light_texts import (
+    figures_text,
+    known_light,
+    lights_of_one,
+    no_ellipse,
+    state_text,
+)
 from optipath.plots.text import fitting, head, key_below
 from optipath.values.arrays import array_of
 
@@ -316,7 +322,7 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     >>> print(ax.get_legend().get_texts()[0].get_text())
     1  lamp → polarizer
     """
-    _, links = one_path(path, "poincare_path", values)
+    links = lights_of_one(path, "poincare_path", values)
     ax = sphere_axes(ax, (5.4, 6.2 + 0.12 * len(links)))
     points = np.stack([sphere_point(link.light) for link in links])
     # Dashed lines from the light that enters a node to that which leaves it.

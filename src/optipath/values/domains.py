@@ -68,7 +68,7 @@ class Domain:
     def _no_number(self, value: Any, array: npt.NDArray[Any]) -> str:
         """Return why something is no number; what comes behind the name of its owner."""
         if isinstance(value, Parameter):
-            return f"cannot be {value.called}, which is not known yet; give {self.described()}"
+            return f"cannot be {value.called} here; give {self.described()}"
         entries = array.ravel().tolist() if array.dtype.kind == "O" else []
         if names := [entry.called for entry in entries if isinstance(entry, Parameter)]:
             whole = "one Parameter for the whole, and all numbers where the path is traced"

@@ -14,7 +14,7 @@ from optipath.elements.vertex_chain import VerticesByAngles
 from optipath.elements.vertices import ChainVertex
 from optipath.errors import PathError
 from optipath.materials.quantities import plain
-from optipath.plots.light_texts import ellipse_points, one_path
+from optipath.plots.light_texts import ellipse_points, lights_of_one
 from optipath.plots.scene.placing import (
     DrawnLink,
     Placing,
@@ -197,7 +197,10 @@ def scene_of(
     World frames and chain points are kept. All else is laid out by following the light from its
     source, in the frames of docs/conventions.md: x of a surface is along k_out cross k_in.
     """
-    path, lights = one_path(path, what, values, lights)
+    lights = lights_of_one(path, what, values, lights)
+    parameters = path.parameters.items()
+    defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
+    path = path.bind(**{**defaults, **values})
     for each in lights:
         if not np.isfinite(each.light.stokes).all():
             raise PathError(

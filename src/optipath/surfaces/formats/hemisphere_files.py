@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 from dataclasses import asdict, dataclass, replace
 from hashlib import sha256
 from importlib.metadata import version
@@ -310,17 +311,18 @@ def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
             f"'{folder}' is there already, and is no hemisphere; give another name, or move it away"
         )
     with TemporaryDirectory(prefix=".", dir=folder.parent, ignore_cleanup_errors=True) as place:
-        draft, old = Path(place, "draft"), Path(place, "old")
+        draft, old = Path(place, "draft"), Path(f"{place}.old")
         # Version 2, whose words of a fixed length and joint metadata are in its specification.
         encoding = {"sums": {"chunks": (1, *dataset["sums"].shape[1:])}}
         dataset.to_zarr(draft, encoding=encoding, zarr_format=2, consolidated=True)
-        if folder.exists():
-            folder.rename(old)
         try:
+            if folder.exists():
+                folder.rename(old)
             draft.rename(folder)
         finally:
             if old.exists() and not folder.exists():
                 old.rename(folder)
+        shutil.rmtree(old, ignore_errors=True)
 
 
 def read_dataset(place: Path) -> xr.Dataset:
