@@ -79,7 +79,7 @@ def test_a_grid_has_the_numbers_of_its_texts_the_widths_of_trapezoids_and_bins_u
         (("380 nm", "700 nm", "45 nm"), "7.11111 steps of 45 nm; .*whole number"),
         (("380 nm", "700 nm", "400 nm"), "0.8 steps"),
         *(
-            (("700 nm", "380 nm", "40 nm"), "begin low, and give a whole"),
+            (("700 nm", "380 nm", "40 nm"), "give the lower end first, and a whole"),
             (("380 nm", "700 nm", "0 nm"), "step"),
         ),
         ((380, 700, 40), "below 0.1 m"),

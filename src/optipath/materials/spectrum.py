@@ -394,7 +394,8 @@ class Spectrum(Curve):
         if missing > _LOST * (missing + float(powers.sum())):
             raise ValueFault(
                 f"{self.label} has a power of {missing:.6g} beyond the bins, which reach from "
-                f"{displayed(low, 'nm')} to {displayed(high, 'nm')}; give more, or outside='drop'"
+                f"{displayed(low, 'nm')} to {displayed(high, 'nm')}; give edges around it all, "
+                f"or outside='drop'"
             )
         least, most = self.kind.extent
         whole = low <= least and most <= high and self.span[1] == np.inf
@@ -517,7 +518,8 @@ def wavelengths(low: Any, high: Any, step: Any) -> np.ndarray[Any, Any]:
     if not 1 <= count <= _MOST or abs(steps - count) > _ROUNDING * count:
         raise ValueFault(
             f"wavelengths {displayed(start, 'nm')} .. {displayed(stop, 'nm')} are {steps:.6g} "
-            f"steps of {displayed(along, 'nm')}; begin low, and give a whole number up to {_MOST}"
+            f"steps of {displayed(along, 'nm')}; give the lower end first, and a whole number of "
+            f"steps, at most {_MOST}"
         )
     first, each = Decimal(repr(start)), Decimal(repr(along))
     results = [float(first + place * each) for place in range(count)]
