@@ -228,7 +228,9 @@ def _number(raw: Any, unit: str) -> Any:
         return number_of(raw, unit)
     if not raw:
         raise UnitError("an empty list is no value; give at least one number")
-    return [_number(entry, unit) for entry in raw]
+    numbers = [_number(entry, unit) for entry in raw]
+    array_of("a list", numbers, UnitError)
+    return numbers
 
 
 def entry_domain(domain: Domain) -> Domain | None:
