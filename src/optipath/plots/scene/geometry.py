@@ -348,7 +348,7 @@ def prepared_sheet(ax: Axes, points: float, usual: float) -> tuple[float, Bbox]:
 
 def write_notes(ax: Axes, notes: Sequence[str], points: float, room: Bbox) -> Bbox:
     """Write notes at the lower edge, and return the room above them."""
-    said = broken("; ".join(notes), 0.95 * room.width / ax.figure.figure.dpi, points)
+    said = broken("; ".join(notes), 0.88 * room.width / ax.figure.figure.dpi, points)
     style: dict[str, Any] = {"fontsize": points, "color": FAINT, "ha": "center", "va": "bottom"}
     text = ax.text(0.5, 0.0, said, transform=ax.transAxes, **style)
     below = text.get_window_extent().y1 + 2.0 if said else room.y0
