@@ -76,7 +76,6 @@ def reflection(
         lines.append(ax.axvline(degrees, label=f"{name} {degrees:.2f}°", **style))
     ax.set(xlim=(0.0, 90.0), ylim=(-0.02, 1.02))
     ax.set_xticks(range(0, 91, 15))
-    ax.set_yticks(np.arange(0.0, 1.1, 0.2))
     ax.grid(visible=True, alpha=0.3)
     label_axes(ax, "angle of incidence (°)", "reflectance, degree of polarisation")
     head(ax, message)
