@@ -111,7 +111,10 @@ def decode(raw: Any, domain: Domain, parameters: Parameters) -> Any:
         return _of_table(raw, domain, parameters)
     if isinstance(raw, str):
         return _of_text(raw, domain, parameters)
-    return _number(raw, domain.unit)
+    number = _number(raw, domain.unit)
+    if isinstance(number, list):
+        array_of("a list", number, UnitError)
+    return number
 
 
 def _of_table(raw: dict[str, Any], domain: Domain, parameters: Parameters) -> Any:
@@ -228,9 +231,7 @@ def _number(raw: Any, unit: str) -> Any:
         return number_of(raw, unit)
     if not raw:
         raise UnitError("an empty list is no value; give at least one number")
-    numbers = [_number(entry, unit) for entry in raw]
-    array_of("a list", numbers, UnitError)
-    return numbers
+    return [_number(entry, unit) for entry in raw]
 
 
 def entry_domain(domain: Domain) -> Domain | None:
