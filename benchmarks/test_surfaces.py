@@ -22,7 +22,7 @@ ALPHA, INCIDENCE = 0.25, "40 deg"
 
 def field(cells, seed):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", op.MeshWarning)
+        warnings.simplefilter("ignore", op.errors.MeshWarning)
         return surfaces.HeightField.beckmann(ALPHA, cells=cells, seed=seed)
 
 

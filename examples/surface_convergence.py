@@ -81,7 +81,7 @@ def heights(lengths, cells, waves, kind, number, layer):
     size, side = 2.0 * lengths, lengths * cells
     if kind != "independent":
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", op.MeshWarning)
+            warnings.simplefilter("ignore", op.errors.MeshWarning)
             periodic = kind == "periodic"
             drawn = HeightField.beckmann(1.0, None, size, side, waves, seed, periodic=periodic)
         return drawn.heights

@@ -18,10 +18,11 @@ from pathlib import Path
 
 import optipath as op
 from optipath.cli import main
-from optipath.errors import EXTRAS, OptipathError
+from optipath.errors import OptipathError
 from optipath.explorer.answers import PageAnswers
 from optipath.explorer.paths import ExploredPresets
 from optipath.explorer.server import PageServer
+from optipath.raising import EXTRAS
 
 COMMANDS = """
 --help

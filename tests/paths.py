@@ -21,6 +21,6 @@ def composable(made, first=0):
         network = made(seed)
         try:
             network.path.check()
-        except op.PathError:
+        except op.errors.PathError:
             continue
         yield network

@@ -153,7 +153,7 @@ class Draw:
             path = self.any_path(loops=loops)
             try:
                 path.check()
-            except op.PathError as error:
+            except op.errors.PathError as error:
                 if "reaches no detector" in str(error):
                     continue
             return path

@@ -1,7 +1,7 @@
 """Public names are documented as numpydoc has it; of all else, ruff asks for a sentence.
 
-Public are the names of `optipath`, `optipath.plots` and `optipath.surfaces`, and the methods of
-their classes.
+Public are the names of `optipath`, its errors, `optipath.plots` and `optipath.surfaces`, and the
+methods of their classes.
 """
 
 import inspect
@@ -13,7 +13,7 @@ import optipath as op
 
 def public_objects():
     """Every public name that is defined in the library, and the public methods of classes."""
-    for space in (op, op.plots, op.surfaces):
+    for space in (op, op.errors, op.plots, op.surfaces):
         for name in space.__all__:
             thing = getattr(space, name)
             if inspect.isclass(thing):

@@ -14,7 +14,8 @@ import pytest
 import optipath as op
 from failing import fails
 from optipath import errors
-from optipath.errors import Cure, Fault, OptipathError, closest, did_you_mean, printable, shown
+from optipath.errors import OptipathError
+from optipath.faults import Cure, Fault, closest, did_you_mean, printable, shown
 from tables import rows
 
 KINDS = [k for k in vars(errors).values() if inspect.isclass(k) and issubclass(k, BaseException)]
@@ -103,17 +104,21 @@ def test_sentences_are_cut_where_they_are_long_and_stay_on_one_line():
 def test_a_fault_is_written_for_who_follows_its_cure():
     fault = Fault("'n' has no value", Cure.giving("n"), subject="n").under("[0]").under("a.x")
     assert fault == "a.x[0]: 'n' has no value; n=..."
-    error = op.PathError(fault.cured("or leave it out"), about="x.toml")
+    error = op.errors.PathError(fault.cured("or leave it out"), about="x.toml")
     assert error.written("command") == (
         "x.toml: a.x[0]: 'n' has no value; --n ...; or leave it out"
     )
-    assert op.PathError(*error.within("file")).written("page").endswith("n = ...; or leave it out")
+    assert (
+        op.errors.PathError(*error.within("file"))
+        .written("page")
+        .endswith("n = ...; or leave it out")
+    )
     again = COPIES[0](error).faults[0]
     assert (again.subject, again.place, again.cure) == ("n", "a.x[0]", error.faults[0].cure)
 
 
 def test_20_faults_are_listed_and_others_are_counted():
-    error = op.PathError(*[f"fault {number}" for number in range(20_000)])
+    error = op.errors.PathError(*[f"fault {number}" for number in range(20_000)])
     told = ["20000 faults:", *(f"- fault {number}" for number in range(20)), "and 19,980 more"]
     assert str(error).splitlines() == told
     assert len(error.faults) == 20_000

@@ -14,6 +14,7 @@ import networkx as nx
 import pytest
 
 import optipath as op
+from tables import rows
 
 SOURCE = Path(op.__file__).parent
 PROJECT = Path(__file__).parents[1] / "pyproject.toml"
@@ -21,10 +22,14 @@ FOR_DEVELOPERS = {"test", "lint", "docs", "browser"}
 
 # Each room may import those that stand before it, and nothing that stands behind.
 ROOMS = [
+    "faults",
     "errors",
+    "raising",
+    "public_names",
     "kernels",
     "values",
     "materials",
+    "fields",
     "light",
     "elements",
     "engines",
@@ -95,19 +100,14 @@ def test_no_two_public_classes_have_one_name():
     assert sorted(found) == sorted(set(found))
 
 
-@pytest.mark.parametrize("package", [op, op.plots, op.surfaces])
+@pytest.mark.parametrize("package", [op, op.fields, op.plots, op.surfaces])
 def test_names_of_a_stub_are_the_public_ones(package):
     stub = ast.parse(Path(package.__file__).with_suffix(".pyi").read_text("utf-8"))
     told = [node for node in stub.body if isinstance(node, ast.ImportFrom)]
-    rooms = {"plots", "surfaces"}  # Which are modules.
-    names = [alias.asname for node in told for alias in node.names]
-    assert sorted({*names} - rooms) == sorted(package.__all__)
-    for node in told:
-        for alias in node.names:
-            if alias.name not in rooms:
-                assert getattr(import_module(node.module), alias.name) is getattr(
-                    package, alias.name
-                )
+    home_of = {alias.asname: node.module for node in told for alias in node.names}
+    assert sorted(home_of) == package.__all__ == dir(package)
+    for name, home in home_of.items():
+        assert getattr(import_module(home), name) is getattr(package, name)
 
 
 def test_all_is_sorted_complete_and_documented():
@@ -185,6 +185,32 @@ def test_unknown_names_are_told_and_known_ones_bring_no_compiler():
         _ = op.Sorce
 
 
+@rows(
+    "name, cure",
+    [
+        ("PathError", "it is op.errors.PathError"),
+        ("StoreWarning", "it is op.errors.StoreWarning"),
+        ("Angle", "it is op.fields.Angle"),
+        ("HeightField", "it is op.surfaces.HeightField"),
+        ("PathEror", "did you mean op.errors.PathError?"),
+    ],
+)
+def test_a_name_of_a_group_is_no_name_at_the_top_which_says_where_it_is(name, cure):
+    assert name not in dir(op)
+    with pytest.raises(AttributeError, match=f"no attribute '{name}'; {re.escape(cure)}$"):
+        getattr(op, name)
+
+
+def test_groups_of_names_are_found_and_hold_their_own_alone():
+    assert {"errors", "fields", "plots", "surfaces"} <= {*dir(op)}
+    kinds = [getattr(op.errors, name) for name in dir(op.errors)]
+    assert all(issubclass(each, op.OptipathError | UserWarning) for each in kinds)
+    assert len(kinds) > 20
+    assert [name for name in dir(op) if name.endswith(("Error", "Fault", "Warning"))] == [
+        "OptipathError"
+    ]
+
+
 def test_rooms_and_the_version_are_attributes_before_anything_is_used():
     code = "import optipath as op; print(op.light.__name__, op.__version__)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
@@ -248,7 +274,7 @@ def test_packages_list_no_names_of_their_modules():
         if len(ast.parse(file.read_text("utf-8")).body) > 1
     ]
     # What users import, and where the installed command begins.
-    assert sorted(with_names) == [".", "cli", "plots", "surfaces"]
+    assert sorted(with_names) == [".", "cli", "fields", "plots", "surfaces"]
 
 
 def test_no_file_is_longer_than_900_lines():

@@ -5,6 +5,6 @@ the frames and orders the work; the plan it makes runs on one set of values or o
 """
 
 import optipath.cli.interruption  # noqa: F401 - before all else, for Ctrl-C while it is imported
-from optipath.errors import public_names
+from optipath.public_names import public_names
 
 __getattr__, __dir__, __all__ = public_names(__name__)

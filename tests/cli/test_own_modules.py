@@ -13,7 +13,7 @@ MODULE = """
 import optipath as op
 
 class Foil(op.Element, kind="test-imported-foil"):
-    share: op.Fraction = 0.5
+    share: op.fields.Fraction = 0.5
     straight = True
 
     @staticmethod

@@ -27,7 +27,7 @@ def assert_equal_lights(found, expected, path, seed):
 
 
 # Some random loops keep nearly all of their light.
-@pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.LoopWarning")
 @pytest.mark.parametrize("seeds", [range(60, 120), slow([*range(60), *range(120, 2000)])])
 def test_every_reduction_equals_the_full_composition(seeds):
     for seed in seeds:
@@ -96,7 +96,9 @@ def test_the_smallest_exact_model_is_found(elements, state, reads, model):
         found = op.Composer(model=name).compose(path).run(**values).stokes
         np.testing.assert_allclose(found, reference, rtol=2e-15, atol=1e-15)
     for name in MODELS[:smaller]:
-        with pytest.raises(op.ComposerError, match=f"'{name}' is not exact .* '{model}' or 'auto'"):
+        with pytest.raises(
+            op.errors.ComposerError, match=f"'{name}' is not exact .* '{model}' or 'auto'"
+        ):
             op.Composer(model=name).compose(path)
 
 
@@ -156,12 +158,12 @@ def test_a_mueller_matrix_is_whole_though_light_is_reduced():
 def test_values_that_nothing_needs_must_be_given_and_are_checked():
     plan = chain([op.Retarder(op.Parameter("a", maximum=1.0)), op.Attenuator(0.5)]).compose()
     assert plan.model == "scalar"
-    with pytest.raises(op.ParameterError, match="'a'"):
+    with pytest.raises(op.errors.ParameterError, match="'a'"):
         plan.run(a=2.0)
     for _ in range(6):
         assert plan.run(a=np.linspace(0, 1, 5)).stokes.shape == (5, 4)
         plan.run(a=0.1)
-    with pytest.raises(op.ParameterError, match="'a' has no value"):
+    with pytest.raises(op.errors.ParameterError, match="'a' has no value"):
         plan.run()
 
 
@@ -190,8 +192,8 @@ def test_what_nobody_asked_for_is_nan_and_what_needs_no_batch_has_its_shape(engi
 class Half(op.Element):
     """Its second value is seen by S2 and S3 alone."""
 
-    t: op.Real = 0.5
-    u: op.Real = 0.1
+    t: op.fields.Real = 0.5
+    u: op.fields.Real = 0.1
 
     @staticmethod
     def mueller_rows(xp, t, u):
@@ -205,14 +207,14 @@ def test_ranges_of_what_a_formula_does_not_read_are_checked_in_float32_too(engin
     plan = op.Composer(dtype="float32", engine=engine).compose(path)
     values = {"t": np.linspace(0.4, 0.5, 3000), "u": np.full(3000, 0.1)}
     plan.run(**values)
-    with pytest.raises(op.ParameterError, match="'u'"):
+    with pytest.raises(op.errors.ParameterError, match="'u'"):
         plan.run(**values | {"u": np.full(3000, 5.0)})
 
 
 class Branch(op.Element):
     """Asks what its number is."""
 
-    a: op.Real = 0.0
+    a: op.fields.Real = 0.0
 
     @staticmethod
     def mueller_rows(xp, a):
@@ -269,5 +271,7 @@ def test_elements_at_angles_that_are_exact_give_what_every_step_gives(seed):
 @rows("model, component", [("linear", 3), ("scalar", 2)])
 def test_a_model_too_small_is_refused_with_the_last_component_that_is_needed(model, component):
     plates = [op.Retarder(0.3, 0.4), op.Retarder(0.7, 1.1), op.Polarizer(0.2)]
-    with pytest.raises(op.ComposerError, match=f"not exact for this path: S{component} is alive"):
+    with pytest.raises(
+        op.errors.ComposerError, match=f"not exact for this path: S{component} is alive"
+    ):
         op.Composer(model=model).compose(chain(plates, (1.0, 0.5, 0.5, 0.0)))

@@ -31,7 +31,7 @@ def tapped_slab():
 
 
 def faults_of(path):
-    with pytest.raises(op.PathError) as error:
+    with pytest.raises(op.errors.PathError) as error:
         path.check()
     return error.value.faults
 
@@ -127,7 +127,7 @@ def test_a_tap_is_told_in_explanations_drawings_and_files_and_makes_paths_unequa
     other.connect("lamp.out", "eye.in")
     assert one != other
     for odd in (1, None, "yes"):
-        with pytest.raises(op.PathError, match="tap must be True or False, not"):
+        with pytest.raises(op.errors.PathError, match="tap must be True or False, not"):
             op.load_preset("npgr026").connect("X2.reflected", "E.in", tap=odd)
 
 

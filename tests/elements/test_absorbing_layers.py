@@ -16,7 +16,7 @@ from tables import rows
 from wired import wired
 
 pytestmark = pytest.mark.filterwarnings(
-    "ignore::optipath.CoherenceWarning"
+    "ignore::optipath.errors.CoherenceWarning"
 )  # Of films, on purpose.
 
 WAVE = {"wavelength": 500e-9}
@@ -299,7 +299,7 @@ def test_a_thick_pile_of_30_layers_composes_and_goes_into_a_file_and_back():
     ],
 )
 def test_what_is_missing_or_does_not_fit_is_told(given, message):
-    with pytest.raises(op.ValueFault, match=message):
+    with pytest.raises(op.errors.ValueFault, match=message):
         op.LayerStack(GLASS, 0.5, **given)
 
 
@@ -337,10 +337,12 @@ def test_no_light_comes_from_nothing_at_the_length_that_is_told(media, degrees, 
         theta = np.radians(degrees)
         return op.LayerStack(media, theta, lengths=[length], wavelength=1e-6)
 
-    with pytest.raises(op.PathError, match=r"R \+ T is above 1 by .*least ([0-9.]+) nm") as told:
+    with pytest.raises(
+        op.errors.PathError, match=r"R \+ T is above 1 by .*least ([0-9.]+) nm"
+    ) as told:
         stack(length * 1e-6).mueller()
     least = float(re.search(r"at least ([0-9.]+) nm", str(told.value))[1]) * 1e-9
-    with pytest.raises(op.PathError, match="light would gain"):
+    with pytest.raises(op.errors.PathError, match="light would gain"):
         stack(0.99 * least).mueller()
     exact = exact_stack(media, [least], 1e-6, np.radians(degrees))
     assert min(float(share) for share in exact.absorbed[0]) >= 0.0
@@ -378,7 +380,7 @@ def test_a_layer_that_is_next_to_lossless_may_have_no_length(media):
 
 @rows("indices", [[1, op.FOLLOWS, 1.5], [1, (1.5, 1e-6), 1], op.Parameter("d"), [1.5]])
 def test_what_is_wrong_with_indices_is_all_that_is_told(indices):
-    with pytest.raises(op.ValueFault, match="indices") as told:
+    with pytest.raises(op.errors.ValueFault, match="indices") as told:
         op.LayerStack(indices, 0.3, lengths=["1 mm"], wavelength=5e-7)
     assert "lengths has" not in str(told.value)
 
@@ -390,12 +392,12 @@ def test_what_is_absorbed_is_that_of_light_in_its_own_frame_and_asked_with_words
     assert several.absorbed().shape == (2, 1)
     assert np.isnan(several.absorbed([0, 0, 0, 0])).all()
     assert several.absorbed(np.ones((3, 1, 4)) * [1, 0, 0, 0]).shape == (3, 2, 1)
-    with pytest.raises(op.ShapeError, match=r"layer-stack \(2,\), the light \(3,\)"):
+    with pytest.raises(op.errors.ShapeError, match=r"layer-stack \(2,\), the light \(3,\)"):
         several.absorbed(np.ones((3, 4)) * [1, 0, 0, 0])
-    with pytest.raises(op.PathError, match=r"no in-port .reflected.; light arrives at .in."):
+    with pytest.raises(op.errors.PathError, match=r"no in-port .reflected.; light arrives at .in."):
         stack.absorbed(enters="reflected")
     with pytest.raises(op.OptipathError, match="polarised by 200 %"):
         stack.absorbed([1, 2, 0, 0])
     stack = op.LayerStack([1.0, op.Parameter("m"), 1.0], 0.5, **OF_PANE)
-    with pytest.raises(op.PathError, match="parameter 'm' of layer-stack has no value yet"):
+    with pytest.raises(op.errors.PathError, match="parameter 'm' of layer-stack has no value yet"):
         stack.absorbed()

@@ -50,20 +50,22 @@ def test_a_value_that_cannot_be_is_refused_where_it_is_written(make, sentence):
 
 
 def test_all_faults_of_an_element_of_its_copies_and_of_a_file_are_told_at_once(tmp_path):
-    with pytest.raises(op.ValueFault) as error:
+    with pytest.raises(op.errors.ValueFault) as error:
         op.Polarizer("up", transmittance=1.5, leakage=-1.0)
     fields = ("Polarizer angle", "Polarizer transmittance", "Polarizer leakage")
     assert [fault.startswith(f) for fault, f in zip(error.value.faults, fields, strict=True)]
     polarizer = op.Polarizer(0.3)
-    with pytest.raises(op.ValueFault, match="Polarizer leakage is 2"):
+    with pytest.raises(op.errors.ValueFault, match="Polarizer leakage is 2"):
         dataclasses.replace(polarizer, leakage=2)
     assert copy.deepcopy(polarizer) == pickle.loads(pickle.dumps(polarizer)) == polarizer
-    with pytest.raises(op.ParameterError, match=r"^parameter 't' \(at e0.transmittance\) is 50"):
+    with pytest.raises(
+        op.errors.ParameterError, match=r"^parameter 't' \(at e0.transmittance\) is 50"
+    ):
         chain([op.Attenuator(op.Parameter("t"))]).bind(t=50)
     text = chain([op.Attenuator(0.5), op.Interface(op.Material(0.2, 3), "45 deg")]).to_toml()
     for good, bad in (("y = 1.0", "y = -1"), ("= 0.5", "= 50"), ("0.2", "-0.2"), ("45 d", "95 d")):
         text = text.replace(good, bad)
-    with pytest.raises(op.PathError) as error:
+    with pytest.raises(op.errors.PathError) as error:
         read(text, tmp_path)
     found = [f.partition(" is ")[0].removeprefix("path.toml: ") for f in error.value.faults]
     assert found == ["lamp.intensity", "e0.transmittance", "e1.index.n", "e1.incidence"]
@@ -79,7 +81,7 @@ def test_all_faults_of_an_element_of_its_copies_and_of_a_file_are_told_at_once(t
     ],
 )
 def test_two_numbers_for_an_index_are_refused(make, sentence):
-    with pytest.raises(op.ValueFault, match=sentence):
+    with pytest.raises(op.errors.ValueFault, match=sentence):
         make()
 
 
@@ -105,9 +107,11 @@ def test_a_material_is_understood_wherever_an_index_is_and_stands_for_nothing_el
     expected = path.trace(n=np.array([1.5 + 0.1j, 1.6 + 0.1j])).stokes
     np.testing.assert_array_equal(path.trace(n=two).stokes, expected)
     np.testing.assert_array_equal(path.with_defaults(n=two).trace().stokes, expected)
-    with pytest.raises(op.ParameterError, match=r"depends on k, .* write path.bind\(n=...\)"):
+    with pytest.raises(
+        op.errors.ParameterError, match=r"depends on k, .* write path.bind\(n=...\)"
+    ):
         path.trace(n=op.Material(1.5, op.Parameter("k")))
-    with pytest.raises(op.ParameterError, match=r"'a' .* is Material.* give a real angle"):
+    with pytest.raises(op.errors.ParameterError, match=r"'a' .* is Material.* give a real angle"):
         chain([op.Rotator(op.Parameter("a"))]).trace(a=op.Material(1.5))
     mirror = chain([op.Mirror(op.Parameter("r"), 0.5)])
     for give in (mirror.trace, mirror.bind, mirror.with_defaults, lambda r: op.Parameter("r", r)):

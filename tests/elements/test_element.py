@@ -17,8 +17,8 @@ STATE = [1.0, 0.6, 0.3, 0.2]
 
 
 class HalfWavePlate(op.Element, kind="test-half-wave-plate"):
-    angle: op.Angle = 0.0
-    azimuth: op.Angle = 0.0
+    angle: op.fields.Angle = 0.0
+    azimuth: op.fields.Angle = 0.0
 
     @staticmethod
     def mueller_rows(xp, angle):
@@ -29,8 +29,8 @@ class HalfWavePlate(op.Element, kind="test-half-wave-plate"):
 class Coating(op.Element, kind="test-coating"):
     """Takes an index, and reflects as the library's kernel does, dimmed."""
 
-    index: op.Index
-    dimming: op.Fraction = 0.5
+    index: op.fields.Index
+    dimming: op.fields.Fraction = 0.5
 
     def couplings(self):
         through = op.Interface(self.index, 0.3).couplings()[0].operations
@@ -48,7 +48,7 @@ def test_an_element_of_ones_own_is_one_of_the_library_in_light_files_and_kinds(t
     np.testing.assert_allclose(own, library, rtol=0, atol=1e-15)
     path = chain([HalfWavePlate(0.25)])
     assert read_back(path, tmp_path) == path
-    with pytest.raises(op.PathError, match="'polarizer' is taken"):
+    with pytest.raises(op.errors.PathError, match="'polarizer' is taken"):
 
         class Other(op.Element, kind="polarizer"):
             pass
@@ -89,7 +89,7 @@ CROSSED = op.Polarizer(0.0, azimuth=np.pi / 2)
     ],
 )
 def test_what_an_element_cannot_do_is_refused(act, sentence):
-    with pytest.raises((op.ValueFault, op.PathError), match=sentence):
+    with pytest.raises((op.errors.ValueFault, op.errors.PathError), match=sentence):
         act()
 
 

@@ -201,5 +201,5 @@ def test_slopes_are_those_of_50_digits_and_what_is_not_allowed_is_nan_where_it_i
     ],
 )
 def test_what_no_boundary_has_is_refused_in_words(given, fault):
-    with pytest.raises((op.ValueFault, op.ShapeError), match=fault):
+    with pytest.raises((op.errors.ValueFault, op.errors.ShapeError), match=fault):
         op.fresnel_amplitudes(*given)

@@ -12,7 +12,7 @@ from paths import chain
 from tables import rows, slow
 from wired import read_back
 
-pytestmark = pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 
 STATE = [1.0, 0.5, 0.6, 0.4]
 RATES = ("dichroism", "circular_dichroism", "retardance", "rotation", "depolarization")
@@ -261,15 +261,17 @@ def test_what_is_not_there_costs_nothing(rates, kernels):
 
 def test_too_much_dichroism_is_refused_and_the_cure_works():
     for absorption in (0.5, np.array([2.0, 0.5])):
-        with pytest.raises(op.ValueFault, match=r"would amplify .* an absorption of 0\.01 1/cm"):
+        with pytest.raises(
+            op.errors.ValueFault, match=r"would amplify .* an absorption of 0\.01 1/cm"
+        ):
             op.Medium(1.0, absorption, dichroism=0.6, circular_dichroism=0.8)
     op.Medium(1.0, "0.01 1/cm", dichroism=0.6, circular_dichroism=0.8)
     path = chain([op.Medium(1.0, op.Parameter("a"), dichroism=op.Parameter("d"))], STATE)
     path.trace(a=1.0, d=[0.5, 1.0])
-    with pytest.raises(op.ParameterError, match=r"parameter 'd'.*\(at 1, of 2 paths\)"):
+    with pytest.raises(op.errors.ParameterError, match=r"parameter 'd'.*\(at 1, of 2 paths\)"):
         path.trace(a=1.0, d=[0.5, 1.5])
     rates = {"dichroism": 100.0, "retardance": 120.0, "depolarization": 10.0}
-    with pytest.raises(op.ValueFault, match="put several Media, each a part of it"):
+    with pytest.raises(op.errors.ValueFault, match="put several Media, each a part of it"):
         op.Medium(1.0, 100.0, **rates)
     several = chain([op.Medium(0.25, 100.0, **rates)] * 4, STATE).trace()
     assert several.dop <= 1.0

@@ -64,10 +64,10 @@ def test_every_method_refracts_first(method):
 
 def test_the_incidence_is_measured_in_a_medium_that_light_comes_from():
     for value in (0.0, -1.0, 1.5 - 1j, "air", op.Material(0.0, 0.1)):
-        with pytest.raises(op.ValueFault, match=r"^Interface incidence_in"):
+        with pytest.raises(op.errors.ValueFault, match=r"^Interface incidence_in"):
             op.Interface(1.5, 0.5, incidence_in=value)
     for element in (op.Interface(0.1j, 0.3), op.LayerStack([1.0, 1.5, 1.5 + 0.1j], 0.3)):
-        with pytest.raises(op.PathError, match="since light comes from there"):
+        with pytest.raises(op.errors.PathError, match="since light comes from there"):
             element.mueller("back", "reflected")
 
 

@@ -98,14 +98,16 @@ def test_a_stack_goes_into_a_file_and_back(tmp_path):
     ],
 )
 def test_media_that_make_no_stack_are_refused(indices, message):
-    with pytest.raises(op.ValueFault, match=f"^LayerStack indices.*{message}"):
+    with pytest.raises(op.errors.ValueFault, match=f"^LayerStack indices.*{message}"):
         op.LayerStack(indices, 0.5)
 
 
 def test_substrates_that_absorb_and_jones_columns_are_refused():
-    with pytest.raises(op.PathError, match=r"stack\.indices\[-1\] is complex.*by port 'back'"):
+    with pytest.raises(
+        op.errors.PathError, match=r"stack\.indices\[-1\] is complex.*by port 'back'"
+    ):
         path_of(op.LayerStack([1.0, 0.6 + 2j], 0.5), "back", "reflected").check()
-    with pytest.raises(op.ComposerError, match=r"stack\.reflected.*may depolarise"):
+    with pytest.raises(op.errors.ComposerError, match=r"stack\.reflected.*may depolarise"):
         op.Composer(composing="jones").compose(path_of(op.LayerStack([1.0, 1.5, 1.0], 0.5)))
 
 
@@ -170,7 +172,7 @@ def test_layers_thinner_than_ten_wavelengths_are_warned_of():
         (lambda: by_index.trace(n=1.4), 1),
     ]
     for number, (action, count) in enumerate(rows):
-        assert warned(action) == [op.CoherenceWarning] * count, number
+        assert warned(action) == [op.errors.CoherenceWarning] * count, number
 
 
 def test_psi_and_delta_of_what_has_no_ratio_of_amplitudes_are_warned_of_once_a_place():
@@ -190,7 +192,7 @@ def test_psi_and_delta_of_what_has_no_ratio_of_amplitudes_are_warned_of_once_a_p
             for _ in range(2):
                 matrix.ellipsometric_angles()
 
-        assert warned(twice) == [op.CoherenceWarning] * count, number
+        assert warned(twice) == [op.errors.CoherenceWarning] * count, number
     jax = pytest.importorskip("jax")
     angles = jax.jit(lambda m: op.Mueller(m).ellipsometric_angles())
     assert warned(lambda: angles(np.diag([1.0, 0.5, 0.5, 0.5]).astype("f4"))) == []

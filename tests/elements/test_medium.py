@@ -77,7 +77,9 @@ def test_presets_take_the_chemists_sign_in_the_chemists_unit(tmp_path):
 @rows("rotation", [1.0, op.Parameter("a"), np.array([0.0, 1.0]), -0.1])
 def test_a_rotation_by_both_signs_is_refused(rotation):
     for other in (1.0, op.Parameter("b"), np.array([1.0, 0.0])):
-        with pytest.raises(op.ValueFault, match=r"rotation.*the same rotation with the other sign"):
+        with pytest.raises(
+            op.errors.ValueFault, match=r"rotation.*the same rotation with the other sign"
+        ):
             op.Medium(0.1, rotation=rotation, dextrorotation=other)
 
 
@@ -102,7 +104,7 @@ def test_absorption_comes_from_the_extinction_coefficient():
     assert op.Medium.from_extinction(1e-6, k, wavelength, rotation=0.1).absorption.shape == (2, 3)
     medium = op.Medium.from_extinction(0.1, k=1e-7, wavelength=589e-9, dextrorotation=1.0)
     assert medium == op.Medium(0.1, medium.absorption, dextrorotation=1.0)
-    with pytest.raises(op.ValueFault) as error:
+    with pytest.raises(op.errors.ValueFault) as error:
         op.Medium.from_extinction(1.0, k=op.Parameter("k"), wavelength=0.0)
     assert [fault.split()[0] for fault in error.value.faults] == ["k", "wavelength"]
 
@@ -138,7 +140,7 @@ def test_one_of_both_may_be_0(zero):
 
 
 def test_all_faults_are_told_at_once():
-    with pytest.raises(op.ValueFault) as error:
+    with pytest.raises(op.errors.ValueFault) as error:
         op.Medium(-0.1, -2.0, rotation="x", retardance=op.Parameter("r", unit="deg"))
     found = "\n".join(error.value.faults)
     for part in (
@@ -209,5 +211,5 @@ def test_a_medium_that_is_never_dense_takes_one_step(length, absorption, steps):
     ],
 )
 def test_what_gives_no_absorption_is_refused(options, message):
-    with pytest.raises(op.ValueFault, match=message):
+    with pytest.raises(op.errors.ValueFault, match=message):
         op.Medium.from_extinction(1e-6, **({"k": 0.1, "wavelength": 5e-7} | options))

@@ -64,12 +64,14 @@ def test_amplitudes_may_be_parameters_of_complex_numbers_in_single_precision_too
     assert np.any(np.abs(phases.astype(complex)) > 1.0 + 1e-9)
     plan = op.Composer(engine=engine).compose(chain([op.Mirror(phases, op.Parameter("r"))]))
     np.testing.assert_allclose(plan.run(r=phases).intensity, 1.0, rtol=1e-6)
-    with pytest.raises(op.ParameterError, match="size of 1 or less"):
+    with pytest.raises(op.errors.ParameterError, match="size of 1 or less"):
         plan.run(r=1.00001)
 
 
 def test_amplitudes_that_give_light_are_refused_but_for_rounding():
-    with pytest.raises(op.ValueFault, match=r"Mirror r_s is 1\.2; .* a size of 1 or less") as error:
+    with pytest.raises(
+        op.errors.ValueFault, match=r"Mirror r_s is 1\.2; .* a size of 1 or less"
+    ) as error:
         op.Mirror(1.2, 0.8 + 0.8j)
     assert len(error.value.faults) == 2
     phases = np.exp(1j * np.linspace(0.0, 6.0, 1000))
@@ -77,13 +79,13 @@ def test_amplitudes_that_give_light_are_refused_but_for_rounding():
     assert op.Mirror(phases, -phases).mueller().matrix.shape == (1000, 4, 4)
     path = chain([op.Mirror(-1.0, op.Parameter("r"))])
     for r in (1.5, 1j + 0.1, np.full(3000, -1.1), np.full(3000, 0.9 + 0.9j)):
-        with pytest.raises(op.ParameterError, match="size of 1 or less"):
+        with pytest.raises(op.errors.ParameterError, match="size of 1 or less"):
             path.trace(r=r)
 
 
 def test_frames_and_azimuths_turn_the_plane_of_incidence_of_a_mirror():
     assert op.Mirror().mueller(frame_in=op.Frame(), frame_out=ASIDE).frame_out == ASIDE
-    with pytest.raises(op.PathError, match="share one x"):
+    with pytest.raises(op.errors.PathError, match="share one x"):
         op.Mirror().mueller(frame_in=op.Frame(), frame_out=op.Frame().turned(0.3))
     turned = chain([op.Mirror(-0.9, 0.5j, azimuth=0.4)], STATE).trace().stokes
     arriving = op.Light(STATE).in_frame(op.Frame().turned(0.4))
@@ -222,7 +224,7 @@ def test_azimuths_and_world_frames_turn_it_as_a_beam_splitter():
     lights = path.trace_all()
     assert [lights[port].frame for port in PORTS] == [frame, ASIDE]
     skew = op.Frame.from_direction((0, 1, 0), (0, 0, 1))
-    with pytest.raises(op.PathError, match="must share one x"):
+    with pytest.raises(op.errors.PathError, match="must share one x"):
         splitter.mueller("in", "reflected", frame_in=frame, frame_out=skew)
 
 
@@ -275,7 +277,7 @@ def test_what_is_no_ratio_beyond_1_is_told_with_what_to_write(ratio, sentence):
 
 @rows("ratio", [math.inf, "inf"])
 def test_a_parameter_that_is_infinite_is_told_the_number_to_give(ratio):
-    with pytest.raises(op.ParameterError, match="give a finite number"):
+    with pytest.raises(op.errors.ParameterError, match="give a finite number"):
         cube(r=5.0).trace_all(t=ratio)
     ideal = cube(math.inf, 5.0).trace_all()["transmitted light"]
     given = cube(r=5.0).trace_all(t=1e30)["transmitted light"]

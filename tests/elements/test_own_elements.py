@@ -25,7 +25,7 @@ GIVEN = [0.3, np.linspace(0.1, 1.0, 3), np.linspace(0.1, 1.0, 3000)]
 X = op.Parameter("x")
 
 
-def own(name, mueller_rows, quantity=op.Angle):
+def own(name, mueller_rows, quantity=op.fields.Angle):
     """A class of elements of one number, with such rows."""
     body = {"a": 0.3, "__annotations__": {"a": quantity}}
     return type(name, (op.Element,), {**body, "mueller_rows": staticmethod(mueller_rows)})
@@ -55,8 +55,8 @@ def times(share):
 
 
 Phase = own("Phase", retards)
-Array = own("Array", lambda _, a: np.diag([1.0, a, a, a]), op.Fraction)
-OneMatrix = own("OneMatrix", of_numpy, op.Fraction)
+Array = own("Array", lambda _, a: np.diag([1.0, a, a, a]), op.fields.Fraction)
+OneMatrix = own("OneMatrix", of_numpy, op.fields.Fraction)
 Branch = own("Branch", lambda _, a: EYE if a > 0.0 else [[0] * 4] * 4)
 Maths = own("Maths", lambda _, a: times(math.cos(a)))
 Misspelt = own("Misspelt", lambda xp, a: ((xp.coss(a), 0, 0, 0), *EYE[1:]))
@@ -149,7 +149,7 @@ def test_rows_may_be_a_matrix_of_numpy_for_one_path_which_is_given_plain_numbers
 )
 def test_what_is_not_for_arrays_is_told_with_its_class_and_the_cure(element_class, expected):
     for run in asked(element_class, GIVEN[1]):
-        with pytest.raises(op.PathError, match=f"^mueller_rows of element class {expected}"):
+        with pytest.raises(op.errors.PathError, match=f"^mueller_rows of element class {expected}"):
             run()
 
 
@@ -158,7 +158,7 @@ def test_what_is_not_for_values_that_jax_traces_is_told_with_its_class(element_c
     pytest.importorskip("jax")
     plan = op.Composer(engine="jax").compose(chain([element_class(X)]))
     told = rf"class {element_class.__name__} raises .*; (choose|call)"
-    with pytest.raises(op.PathError, match=told):
+    with pytest.raises(op.errors.PathError, match=told):
         plan.run(x=0.3)
 
 
@@ -179,7 +179,7 @@ def test_whatever_rows_raise_is_an_error_of_the_library(
 ):
     what = f"mueller_rows of element class {element_class.__name__} {expected}"
     for run in asked(element_class, value, engine):
-        with pytest.raises(op.PathError, match=what) as told:
+        with pytest.raises(op.errors.PathError, match=what) as told:
             run()
         assert isinstance(told.value.__cause__, cause)
 
@@ -196,7 +196,7 @@ def test_whatever_couplings_and_their_kernels_raise_is_an_error_of_the_library(
     element_class, expected
 ):
     for act in (chain([element_class()]).trace, element_class().mueller):
-        with pytest.raises(op.PathError, match=expected):
+        with pytest.raises(op.errors.PathError, match=expected):
             act()
 
 
@@ -210,7 +210,7 @@ def test_an_interruption_stays_what_it_is(error):
 
 
 def test_an_own_element_that_amplifies_is_found_when_its_path_is_checked():
-    with pytest.raises(op.PathError) as told:
+    with pytest.raises(op.errors.PathError) as told:
         chain([Amplifier(0.3)]).check()
     for part in ("'e0'", "class Amplifier", "a=0.3", "(3, 0, 0, 0)", "physical: ClassVar[bool]"):
         assert part in str(told.value)
@@ -222,22 +222,26 @@ def test_an_own_element_that_amplifies_is_found_with_its_first_values(value, eng
     plan = op.Composer(engine=engine).compose(chain([Amplifier(X)]))
     ask = [lambda: plan.run(x=value), lambda: plan.mueller(x=value)]
     for act in ask if engine == "jax" else [*ask, lambda: list(plan.stream(100, x=value))]:
-        with pytest.raises(op.ParameterError, match=r"^at x = .*: 'e0' \(element class Amplif"):
+        with pytest.raises(
+            op.errors.ParameterError, match=r"^at x = .*: 'e0' \(element class Amplif"
+        ):
             act()
 
 
 def test_first_and_known_values_and_kernels_of_ones_own_are_looked_at():
     plan = op.Composer().compose(chain([Amplifier(op.Parameter("x", unit="deg"))]))
-    with pytest.raises(op.ParameterError, match=r"^at x = 22\.5 deg: 'e0'"):
+    with pytest.raises(op.errors.ParameterError, match=r"^at x = 22\.5 deg: 'e0'"):
         plan.run(x="22.5 deg")
     shares = np.full(1000, -0.1)
     shares[567] = 0.7
-    with pytest.raises(op.PathError, match=r"makes light up to 2\.01375\d+ times as bright"):
+    with pytest.raises(op.errors.PathError, match=r"makes light up to 2\.01375\d+ times as bright"):
         chain([Growing(shares)]).check()
     assert chain([OwnKernel(0.5)]).trace().intensity == 0.5
-    with pytest.raises(op.PathError, match=r"class OwnKernel, .* 2 times as bright"):
+    with pytest.raises(op.errors.PathError, match=r"class OwnKernel, .* 2 times as bright"):
         chain([OwnKernel(2.0)]).check()
-    with pytest.raises(op.ParameterError, match=r"at x = 2: .*class OwnKernel.* 2 times as bright"):
+    with pytest.raises(
+        op.errors.ParameterError, match=r"at x = 2: .*class OwnKernel.* 2 times as bright"
+    ):
         chain([OwnKernel(X)]).trace(x=2.0)
 
 
@@ -245,7 +249,7 @@ def test_first_and_known_values_and_kernels_of_ones_own_are_looked_at():
 def test_the_first_and_the_last_path_of_an_array_are_looked_at(engine):
     plan = op.Composer(engine=engine).compose(chain([Growing(X)]))
     plan.run(x=np.linspace(-1.0, 0.0, 1000))
-    with pytest.raises(op.ParameterError, match=r"at x = 0\.1: 'e0'"):
+    with pytest.raises(op.errors.ParameterError, match=r"at x = 0\.1: 'e0'"):
         plan.run(x=np.linspace(-50.0, 0.1, 1001))
 
 
@@ -273,22 +277,28 @@ def test_what_says_it_is_not_physical_is_taken_and_other_values_are_not_looked_a
 )
 def test_what_xp_lacks_is_written_by_what_it_has(name, written):
     lacking = own("Lacking", lambda xp, a: getattr(xp, name)(a))
-    with pytest.raises(op.PathError, match=re.escape(f"does not exist; write {written}")):
+    with pytest.raises(op.errors.PathError, match=re.escape(f"does not exist; write {written}")):
         lacking().mueller()
 
 
 def test_arguments_are_the_callers_and_entries_as_many_as_the_paths():
     path, angles = chain([InPlace(X)]), np.zeros(100)
-    with pytest.raises(op.PathError, match=r"InPlace raises .* a = a \+ 1, in place of a \+= 1"):
+    with pytest.raises(
+        op.errors.PathError, match=r"InPlace raises .* a = a \+ 1, in place of a \+= 1"
+    ):
         path.trace(x=angles)
     assert not angles.any()
     assert pytest.approx(math.cos(1.0)) == path.trace(x=0.0).S0
     path = chain([Longer(X)])
-    with pytest.raises(op.PathError, match=r"of shape \(3,\) for paths of shape \(\); compute"):
+    with pytest.raises(
+        op.errors.PathError, match=r"of shape \(3,\) for paths of shape \(\); compute"
+    ):
         path.trace(x=0.1)
-    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for paths of shape \(5,\)"):
+    with pytest.raises(
+        op.errors.PathError, match=r"an entry of shape \(3,\) for paths of shape \(5,\)"
+    ):
         path.trace(x=np.zeros(5))
-    with pytest.raises(op.PathError, match=r"for paths of shape \(\)"):
+    with pytest.raises(op.errors.PathError, match=r"for paths of shape \(\)"):
         Longer().mueller()
 
 
@@ -303,7 +313,9 @@ def test_arguments_are_the_callers_and_entries_as_many_as_the_paths():
 )
 @rows("value", [5.0, [5.0, 3.0], op.Parameter("c", 5.0, bound=True)])
 def test_what_no_light_can_do_is_refused_of_an_element_alone_too(use, value):
-    with pytest.raises(op.PathError, match=r"class Amplifier.* is unphysical.*physical.*= False"):
+    with pytest.raises(
+        op.errors.PathError, match=r"class Amplifier.* is unphysical.*physical.*= False"
+    ):
         use(Amplifier(value))
     use(Measured(value))
 

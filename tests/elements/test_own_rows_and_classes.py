@@ -31,9 +31,12 @@ def make(function=lambda *_: times(0.5), kind="", annotations=(), **body):
         ({"mueller_rows": np.eye(4)}, "must be a static method that returns the rows"),
         ({"mueller_rows": classmethod(times)}, "put @staticmethod before it"),
         ({"mueller_rows": lambda self: self}, "put @staticmethod before it"),
-        ({"annotations": {"kind": op.Real}}, r"field 'kind'.*class Name\(op.Element, kind="),
-        ({"annotations": {"outputs": op.Real}}, "'outputs'.*Own.*write outputs: ClassVar"),
-        ({"annotations": {"uses": op.Real}}, "'uses'.*every element has; .* give it another name"),
+        ({"annotations": {"kind": op.fields.Real}}, r"field 'kind'.*class Name\(op.Element, kind="),
+        ({"annotations": {"outputs": op.fields.Real}}, "'outputs'.*Own.*write outputs: ClassVar"),
+        (
+            {"annotations": {"uses": op.fields.Real}},
+            "'uses'.*every element has; .* give it another name",
+        ),
         ({"annotations": {"physical": bool}}, "'physical'.*write physical: ClassVar"),
         ({"annotations": {"physical": "bool"}}, "'physical'.*write physical: ClassVar"),
         ({"inputs": "in"}, "^inputs of element class Own must be names of ports"),
@@ -44,7 +47,7 @@ def make(function=lambda *_: times(0.5), kind="", annotations=(), **body):
     ],
 )
 def test_classes_that_no_element_can_have_are_refused_when_they_are_made(given, told):
-    with pytest.raises(op.PathError, match=told):
+    with pytest.raises(op.errors.PathError, match=told):
         make(**given)
 
 
@@ -52,11 +55,13 @@ def test_a_class_that_is_not_physical_says_so_for_all_its_elements():
     assert make(annotations={"physical": ClassVar[bool]}, physical=False).domains() == {}
 
 
-LENGTHS = {"thickness": op.Length, "absorption": op.Absorption}
+LENGTHS = {"thickness": op.fields.Length, "absorption": op.fields.Absorption}
 
 
 def test_values_come_in_the_order_of_the_fields_and_may_have_any_names():
-    with pytest.raises(op.PathError, match=r"takes absorption and thickness, but .* the order of"):
+    with pytest.raises(
+        op.errors.PathError, match=r"takes absorption and thickness, but .* the order of"
+    ):
         make(lambda _, absorption, thickness: times(absorption * thickness), annotations=LENGTHS)
     for function in (
         lambda _, thickness, absorption: times(25 * absorption * thickness),
@@ -70,15 +75,15 @@ def test_values_come_in_the_order_of_the_fields_and_may_have_any_names():
 def test_fields_may_be_true_or_false_and_angles_have_the_name_of_an_axis():
     own = make(lambda _, on: times(0.5 * on), annotations={"on": bool})
     assert [own(on).mueller().matrix[0, 0] for on in (True, False)] == [0.5, 0.0]
-    with pytest.raises(op.ValueFault, match="give True or False"):
+    with pytest.raises(op.errors.ValueFault, match="give True or False"):
         own(0.5)
-    own = make(lambda xp, angle: times(0.5 * xp.sin(angle)), annotations={"angle": op.Axis})
+    own = make(lambda xp, angle: times(0.5 * xp.sin(angle)), annotations={"angle": op.fields.Axis})
     assert own("vertical").mueller().matrix[0, 0] == 0.5
 
 
 def plan_of(function, engine="auto", dtype="float64", state=(1.0, 0.5, 0.2, 0.1)):
     """The plan of a path with an element of such rows."""
-    own = make(function, annotations={"a": op.Real})
+    own = make(function, annotations={"a": op.fields.Real})
     path = op.Source(stokes=state) >> own(op.Parameter("a")) >> op.Detector()
     return op.Composer(engine=engine, dtype=dtype).compose(path)
 
@@ -102,7 +107,7 @@ def test_a_value_that_is_looked_up_is_found_in_every_run(look_up):
 
 @rows("engine", ENGINES)
 def test_looking_up_many_values_is_told_with_the_cure(engine):
-    with pytest.raises(op.PathError, match="unhashable"):
+    with pytest.raises(op.errors.PathError, match="unhashable"):
         plan_of_share(LOOK_UPS[0], engine).run(a=np.linspace(0.1, 1.0, 3))
 
 
@@ -134,19 +139,23 @@ def test_what_is_not_so_is_the_same_in_every_run_and_for_many(share, engine):
 def test_kernels_of_ones_own_are_told_where_numbers_lack_what_they_ask():
     kernel = Kernel("edge", SCALE, lambda xp: lambda a: (xp.where(~(a > 1.0), 0.5, 0.2),))
     assert [kernel.made_for(FLOAT)(a) for a in (0.3, 1.3)] == [(0.5,), (0.2,)]
-    with pytest.raises(op.PathError, match="no attribute 'conj'"):
+    with pytest.raises(op.errors.PathError, match="no attribute 'conj'"):
         plan_of_share(lambda _, a: a * (0.3 + 0.1j).conj().real).run(a=0.3)
-    with pytest.raises(op.PathError, match=r"the complex entry \[0\]\[0\] = \(0\.3\+5e-08j\)"):
+    with pytest.raises(
+        op.errors.PathError, match=r"the complex entry \[0\]\[0\] = \(0\.3\+5e-08j\)"
+    ):
         plan_of_share(lambda _, a: 0.3 + 1e-7j * a).run(a=0.5)
 
 
 @rows("function", [lambda _, a: a * np.eye(4), lambda _, a: [a * row for row in np.eye(4)]])
 @rows("engine", ENGINES)
 def test_arrays_of_rows_are_for_one_path_since_four_paths_look_the_same(function, engine):
-    plan, own = plan_of(function, engine), make(function, annotations={"a": op.Real})
+    plan, own = plan_of(function, engine), make(function, annotations={"a": op.fields.Real})
     np.testing.assert_allclose(plan.run(a=0.4).stokes, [0.4, 0.2, 0.08, 0.04])
     for act in (plan.run, plan.mueller, lambda a: own(a).mueller()):
-        with pytest.raises(op.PathError, match=r"an array of shape \(4.* for many paths; return f"):
+        with pytest.raises(
+            op.errors.PathError, match=r"an array of shape \(4.* for many paths; return f"
+        ):
             act(a=[0.5, 0.4, 0.3, 0.25])
 
 
@@ -155,7 +164,7 @@ def test_rows_may_be_generators_and_arrays_where_other_elements_have_many_values
     for value in (0.5, [0.5, 0.4, 0.3, 0.25]):
         expected = np.multiply.outer(value, [1.0, 0.5, 0.2, 0.1])
         np.testing.assert_allclose(plan.run(a=value).stokes, expected)
-    own = make(lambda _, a: a * np.eye(4), annotations={"a": op.Real})
+    own = make(lambda _, a: a * np.eye(4), annotations={"a": op.fields.Real})
     path = op.Source(8.0) >> own(op.Parameter("a")) >> op.Attenuator(op.Parameter("t"))
     light = (path >> op.Detector()).trace(a=0.5, t=[1.0, 0.5, 0.25, 0.125, 0.0])
     np.testing.assert_array_equal(light.S0, [4.0, 2.0, 1.0, 0.5, 0.0])

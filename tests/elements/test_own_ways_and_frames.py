@@ -19,8 +19,8 @@ def operations(share):
 class Splits(op.Element):
     """Lets out a share at either side."""
 
-    a: op.Fraction = 0.5
-    b: op.Fraction = 0.5
+    a: op.fields.Fraction = 0.5
+    b: op.fields.Fraction = 0.5
     outputs = ("a", "b")
     natural = "a"
 
@@ -36,11 +36,11 @@ def both(a, b):
 def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
     assert sum(light.S0 for light in both(0.75, 0.25).trace_all().values()) == 1.0
     told = r"'splits' .* up to 1\.8 times .* comes in at 'in', at 'a' and 'b' together"
-    with pytest.raises(op.PathError, match=told):
+    with pytest.raises(op.errors.PathError, match=told):
         both(0.9, 0.9).check()
-    with pytest.raises(op.ParameterError, match=rf"^at share = 0\.9: {told}"):
+    with pytest.raises(op.errors.ParameterError, match=rf"^at share = 0\.9: {told}"):
         both(op.Parameter("share"), 0.9).trace_all(share=[0.1, 0.9])
-    with pytest.raises(op.PathError, match=r"up to 1\.8 times"):
+    with pytest.raises(op.errors.PathError, match=r"up to 1\.8 times"):
         Splits(0.9, 0.9).mueller("in", "a")
 
 
@@ -70,14 +70,16 @@ def doing(kernel, values):
 def test_ways_and_operations_that_cannot_be_are_told_with_the_class(couplings, told):
     own = type("Own", (op.Element,), {"couplings": lambda _: couplings})
     for act in (chain([own()]).check, chain([own()]).trace, own().mueller):
-        with pytest.raises(op.PathError, match=rf"^couplings\(\) of element class Own .*{told}"):
+        with pytest.raises(
+            op.errors.PathError, match=rf"^couplings\(\) of element class Own .*{told}"
+        ):
             act()
 
 
 class Parts(op.Element):
     """Parts light between two sides, and polarises it at the second."""
 
-    share: op.Fraction
+    share: op.fields.Fraction
     outputs = ("a", "b")
     natural = "b"
 
@@ -115,7 +117,7 @@ def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
     ],
 )
 def test_ports_of_other_names_and_without_light_are_told(body, told):
-    with pytest.raises(op.PathError, match=told):
+    with pytest.raises(op.errors.PathError, match=told):
         (op.Source() >> type("Own", (op.Element,), body)() >> op.Detector()).check()
 
 
@@ -128,12 +130,12 @@ def test_shares_in_float32_may_make_up_the_whole_to_their_rounding():
             for times in (1, np.ones(3, np.float32)):
                 lights = plan.run_all(first=first * times, second=second * times)
                 np.testing.assert_allclose(sum(light.S0 for light in lights.values()), 1.0, 1e-7)
-        with pytest.raises(op.PathError, match=r"up to 1\.0001\d* times"):
+        with pytest.raises(op.errors.PathError, match=r"up to 1\.0001\d* times"):
             both(first, second + np.float32(1e-4)).check()
 
 
 class AnyMatrix(op.Element):
-    matrix: op.MuellerMatrix
+    matrix: op.fields.MuellerMatrix
 
     @staticmethod
     def mueller_rows(xp, *numbers):
@@ -141,7 +143,7 @@ class AnyMatrix(op.Element):
 
 
 class Lamp(op.Element):
-    state: op.StokesState
+    state: op.fields.StokesState
     inputs = ()
 
     def couplings(self):
@@ -156,7 +158,7 @@ def test_own_elements_and_sources_take_what_those_of_the_library_take_in_float32
         op.MuellerElement(matrix)
         chain([AnyMatrix(matrix)]).check()
         chain([AnyMatrix(op.Parameter("m"))]).trace(m=matrix)
-        with pytest.raises(op.PathError, match=r"makes light up to .* times as bright"):
+        with pytest.raises(op.errors.PathError, match=r"makes light up to .* times as bright"):
             chain([AnyMatrix(2.0 * matrix)]).check()
     lamp = Lamp(op.Parameter("state")) >> op.Detector()
     for direction in rng.normal(size=(12, 3)):
@@ -169,7 +171,7 @@ def test_own_elements_and_sources_take_what_those_of_the_library_take_in_float32
 
 
 class Times(op.Element):
-    a: op.Real = 1.0
+    a: op.fields.Real = 1.0
 
     @staticmethod
     def mueller_rows(xp, a):
@@ -183,7 +185,7 @@ class TimesAnything(Times):
 def test_later_runs_are_looked_at():
     plan = chain([Times(op.Parameter("a"))]).compose()
     assert plan.run(a=1.0).S0 == 1.0
-    with pytest.raises(op.ParameterError, match="or the rows of 'e0' are not finite there"):
+    with pytest.raises(op.errors.ParameterError, match="or the rows of 'e0' are not finite there"):
         plan.run(a=-1.0)
 
 
@@ -193,18 +195,18 @@ def test_a_default_stands_in_nobodys_way_where_another_value_is_given(engine):
     for _ in range(6):
         assert plan.run(a=0.25).S0 == 0.5
     for _ in range(6):
-        with pytest.raises(op.ParameterError, match=r"^at a = 4: .*2 times as bright"):
+        with pytest.raises(op.errors.ParameterError, match=r"^at a = 4: .*2 times as bright"):
             plan.run()
 
 
 @rows("element_class", [Times, TimesAnything])
 def test_rows_that_are_not_finite_are_told_with_their_element(element_class):
     told = r"\(element class Times.*\) has the Mueller matrix \(nan.*not finite; keep divisors"
-    with pytest.raises(op.PathError, match=told):
+    with pytest.raises(op.errors.PathError, match=told):
         chain([element_class(-1.0)]).check()
     path = chain([element_class(op.Parameter("a"))])
     for value in (-1.0, [1.0, -1.0]):
-        with pytest.raises(op.ParameterError, match=f"^at a = -1: .*{told}"):
+        with pytest.raises(op.errors.ParameterError, match=f"^at a = -1: .*{told}"):
             path.trace(a=value)
 
 
@@ -266,5 +268,5 @@ def test_an_element_of_ones_own_is_placed_among_vertices_as_a_vertex_is(model):
     ],
 )
 def test_what_does_not_follow_a_vertex_is_refused(elements, sentence):
-    with pytest.raises(op.PathError, match=sentence):
+    with pytest.raises(op.errors.PathError, match=sentence):
         path(*elements).compose()

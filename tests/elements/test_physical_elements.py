@@ -48,7 +48,7 @@ def test_matrices_that_are_given_when_a_path_runs_are_looked_at_each_time(
     bad[() if count is None else -1] = matrix
     for _ in range(5):
         assert np.all(plan.run(M=good).intensity == 1.0)
-    with pytest.raises(op.ParameterError, match=rf"'M' \(at e0.matrix\).* {expected}"):
+    with pytest.raises(op.errors.ParameterError, match=rf"'M' \(at e0.matrix\).* {expected}"):
         plan.run(M=bad)
 
 
@@ -61,7 +61,7 @@ def test_states_that_are_given_when_a_path_runs_are_looked_at_each_time(engine):
     bad[4321] = 1.0
     for _ in range(3):
         plan.run(state=good)
-    with pytest.raises(op.ParameterError, match="polarised by more than 100 %"):
+    with pytest.raises(op.errors.ParameterError, match="polarised by more than 100 %"):
         plan.run(state=bad)
 
 
@@ -163,7 +163,7 @@ COUNTED[0, 1] = COUNTED[1, 0] = 0.3
     ],
 )
 def test_the_cure_of_matrices_ends_the_matter_for_all_of_them(matrix, cure):
-    with pytest.raises(op.ValueFault) as caught:
+    with pytest.raises(op.errors.ValueFault) as caught:
         op.MuellerElement(matrix)
     assert cure in str(caught.value)
     nearest = op.Mueller(matrix).nearest_physical().matrix if "nearest" in cure else matrix

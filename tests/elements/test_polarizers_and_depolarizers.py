@@ -74,7 +74,7 @@ MATRIX = 0.5 * np.diag([1.0, 0.9, -0.8, -0.8])
     ],
 )
 def test_values_that_no_such_element_has_are_refused(make, sentence):
-    with pytest.raises(op.ValueFault, match=sentence):
+    with pytest.raises(op.errors.ValueFault, match=sentence):
         make()
 
 
@@ -144,7 +144,7 @@ def test_a_depolarizer_leaves_what_it_does_not_take_and_no_more_is_carried():
     np.testing.assert_array_equal(light.intensity, 1.0)
     left = np.linalg.norm(STATE[1:]) * (1.0 - taken)
     np.testing.assert_allclose(light.dop, left, rtol=0, atol=1e-15)
-    with pytest.raises(op.ComposerError, match=r"'e0\.out' has a Mueller matrix"):
+    with pytest.raises(op.errors.ComposerError, match=r"'e0\.out' has a Mueller matrix"):
         op.Composer(composing="jones").compose(path)
     plan = chain([op.Depolarizer(), op.Rotator(op.Parameter("a"))], STATE).compose()
     assert plan.program.counts[-1] == 1
@@ -171,7 +171,9 @@ def test_what_scatters_has_a_frame_for_each_way_and_what_light_goes_straight_thr
     light = paths[0].trace()
     np.testing.assert_array_equal(light.stokes, MATRIX @ [1, 0, 1, 0])
     np.testing.assert_array_equal(light.frame.z, MEETS.reflected.z)
-    with pytest.raises(op.PathError, match="lets light go straight through; give its ports one"):
+    with pytest.raises(
+        op.errors.PathError, match="lets light go straight through; give its ports one"
+    ):
         paths[1].trace()
     # Alone, light leaves in a frame of its own.
     arriving = op.Light([1, 0, 1, 0], MEETS.arriving)
@@ -182,6 +184,6 @@ def test_what_scatters_has_a_frame_for_each_way_and_what_light_goes_straight_thr
     assert scatters.reversed().straight is False
 
     class Scatterer(op.Element):
-        straight: op.YesOrNo = True
+        straight: op.fields.YesOrNo = True
 
     assert Scatterer(straight=False).straight is False

@@ -213,14 +213,16 @@ def test_the_opposite_vector_undoes_it_and_no_light_is_lost(vector):
     np.testing.assert_allclose(back @ there, np.eye(4), rtol=0, atol=2e-15)
 
 
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 def test_angles_in_degrees_are_warned_of_and_what_cannot_be_is_refused():
-    with pytest.warns(op.AngleWarning, match="EllipticalRetarder s2 is a plain number beyond 2 pi"):
+    with pytest.warns(
+        op.errors.AngleWarning, match="EllipticalRetarder s2 is a plain number beyond 2 pi"
+    ):
         op.EllipticalRetarder(s2=90)
-    with pytest.raises(op.ValueFault, match=r"s1 is 1.7e\+308"):
+    with pytest.raises(op.errors.ValueFault, match=r"s1 is 1.7e\+308"):
         op.EllipticalRetarder(1.7e308, 1.7e308, 1.7e308)
     assert np.all(np.isfinite(op.EllipticalRetarder(1e15, 1e15, -1e15).mueller().matrix))
-    with pytest.raises(op.ComposerError, match="and no Jones matrix"):
+    with pytest.raises(op.errors.ComposerError, match="and no Jones matrix"):
         op.Composer(composing="jones").compose(chain([op.EllipticalRetarder(0.1, 0.2, 0.3)], STATE))
 
 

@@ -78,7 +78,7 @@ def test_a_reversed_element_does_what_its_reversed_matrix_does_and_has_its_ports
 
 @rows("port", ["inn", 3, "transmitted"])
 def test_a_port_that_is_not_there_is_refused(port):
-    with pytest.raises(op.PathError, match=r"port of Mirror .* is unknown"):
+    with pytest.raises(op.errors.PathError, match=r"port of Mirror .* is unknown"):
         op.Mirror().port_back(port)
 
 
@@ -111,7 +111,7 @@ def test_parameters_change_their_sign_and_no_more():
     assert plate.retardance == op.Retarder(op.Parameter("r")).retardance
     interface = op.Interface(1.5, 0.3)
     assert interface.reversed() is interface
-    with pytest.warns(op.AngleWarning):
+    with pytest.warns(op.errors.AngleWarning):
         plate = op.Polarizer(45)
     assert plate.reversed().angle == -45.0
 
@@ -134,7 +134,7 @@ def turning(mirrored, **azimuth):
         return (1, 0, 0, 0), (0, c, -s, 0), (0, s, c, 0), (0, 0, 0, 1)
 
     body = {"angle": 0.3, "mueller_rows": staticmethod(rows_of), **mirrored, **azimuth}
-    body["__annotations__"] = dict.fromkeys(("angle", *azimuth), op.Axis)
+    body["__annotations__"] = dict.fromkeys(("angle", *azimuth), op.fields.Axis)
     return type("Unsaid", (op.Element,), body)
 
 
@@ -144,7 +144,7 @@ Turned = turning({"mirrored": ("angle",)}, azimuth=0.0)
 
 
 class Share(op.Element):
-    share: op.Fraction = 0.3
+    share: op.fields.Fraction = 0.3
     mirrored = ("share",)
 
     def couplings(self):
@@ -193,5 +193,5 @@ def test_a_class_of_ones_own_names_the_fields_that_change_their_sign():
     ],
 )
 def test_what_has_no_way_back_by_itself_is_refused_with_the_cure(element, sentence):
-    with pytest.raises(op.PathError, match=sentence):
+    with pytest.raises(op.errors.PathError, match=sentence):
         element.reversed()

@@ -93,7 +93,7 @@ def test_a_line_keeps_its_power_along_other_axes_and_in_streams():
     ],
 )
 def test_what_is_no_grid_for_a_line_is_refused(wavelength, sentence):
-    with pytest.raises(op.ParameterError, match=sentence):
+    with pytest.raises(op.errors.ParameterError, match=sentence):
         seen(LASER).trace(wavelength=wavelength)
 
 
@@ -103,17 +103,17 @@ def test_a_line_may_be_left_out_or_wait_for_its_grid():
     wavelength = op.Wavelength(default="500 nm")
     path = op.Source(spectrum=LASER.at(wavelength)) >> op.Detector()
     assert path.trace(wavelength=GRID).intensity[6] == pytest.approx(2.0 / 40.0, rel=1e-14)
-    with pytest.raises(op.ParameterError, match="no row of two or more"):
+    with pytest.raises(op.errors.ParameterError, match="no row of two or more"):
         path.trace()
     path, other = seen(SMOOTH[0] + LASER, LED), seen(SMOOTH[0], LED)
     bound = path.bind(wavelength=GRID)
     np.testing.assert_array_equal(bound.trace().stokes, path.trace(wavelength=GRID).stokes)
     assert other.bind(wavelength=5e-7).trace() == other.trace(wavelength=5e-7)
     path = seen(op.Spectrum.sampled(["400 nm", "500 nm"], [1.0, 2.0], name="the lamp"))
-    with pytest.raises(op.ParameterError, match=r"source.spectrum.*the lamp.*outside=0.0"):
+    with pytest.raises(op.errors.ParameterError, match=r"source.spectrum.*the lamp.*outside=0.0"):
         path.trace(wavelength="600 nm")
     assert repr(op.Source(spectrum=LASER)).endswith("spectrum=<the line at 633 nm, by wavelength>)")
-    with pytest.raises(op.ValueFault, match="not <class"):
+    with pytest.raises(op.errors.ValueFault, match="not <class"):
         op.Attenuator(op.Parameter)
 
 
@@ -122,10 +122,10 @@ def test_a_response_may_be_a_number_of_any_size_and_no_power():
     for engine in ENGINES:
         assert op.Composer(engine=engine).compose(seven).run().intensity == 21.0
     np.testing.assert_allclose(seven.mueller().matrix, 7.0 * plain.mueller().matrix)
-    with pytest.raises(op.ValueFault, match="Detector response is -1"):
+    with pytest.raises(op.errors.ValueFault, match="Detector response is -1"):
         op.Detector(response=-1.0)
     for power in (LASER, SMOOTH[1], LED + LASER):
-        with pytest.raises(op.ValueFault, match="which is power and no response"):
+        with pytest.raises(op.errors.ValueFault, match="which is power and no response"):
             op.Detector(response=power)
 
 
@@ -149,7 +149,7 @@ def test_slopes_in_the_wavelength_are_those_of_the_spectrum(spectrum, jacobian):
 
 def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
     plan = op.Composer(engine="jax").compose(seen(LASER))
-    with pytest.raises(op.ParameterError, match="traced by JAX"):
+    with pytest.raises(op.errors.ParameterError, match="traced by JAX"):
         jax.jit(lambda w: plan.run(wavelength=w).stokes)(jax.numpy.asarray(GRID))
 
 

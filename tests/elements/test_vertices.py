@@ -178,24 +178,28 @@ NO_NEXT = "must lead from a vertex to the next of one chain"
     ],
 )
 def test_vertices_that_do_not_follow_each_other_are_refused(elements, sentence):
-    with pytest.raises(op.PathError, match=sentence):
+    with pytest.raises(op.errors.PathError, match=sentence):
         chain(elements).check()
 
 
 def test_what_cannot_stand_between_vertices_is_refused():
     path = wired({"lamp": LAMP, "a": FIRST, "b": SECOND, "eye": EYE}, "lamp -> a, b -> eye")
     path.connect("a.reflected", "b.in", azimuth=0.1)
-    with pytest.raises(op.PathError, match="by its vertices and by an azimuth"):
+    with pytest.raises(op.errors.PathError, match="by its vertices and by an azimuth"):
         path.check()
     nodes = {"lamp": LAMP, "a": GLASS, "b": op.SpecularVertex(1.5, CORNER, 1), "eye": EYE}
-    with pytest.raises(op.PathError, match="several lights meet at 'eye' in frames of vertices"):
+    with pytest.raises(
+        op.errors.PathError, match="several lights meet at 'eye' in frames of vertices"
+    ):
         wired(nodes, "lamp -> a, lamp -> b, a -> eye, b -> eye").check()
     path = op.path_from_vertices(INTO_GLASS, [op.Parameter("n")], events="T")
-    with pytest.raises(op.ParameterError, match="light goes on in"):
+    with pytest.raises(op.errors.ParameterError, match="light goes on in"):
         path.trace(n=1.5 + 0.1j)
     masked = op.Vertex(1.5, CORNER, 1, events=[3], bad="mask")
     assert np.all(np.isnan(chain([masked]).trace().stokes))
-    with pytest.raises(op.ValueFault, match="there is no such chain, says the event at 'Vertex'"):
+    with pytest.raises(
+        op.errors.ValueFault, match="there is no such chain, says the event at 'Vertex'"
+    ):
         op.Vertex(1.5, CORNER, 1, events=[3])
     for node, frames, sentence in (
         ("vertex", {"in": op.Frame()}, "'vertex' has its frames from its vertices"),
@@ -205,7 +209,7 @@ def test_what_cannot_stand_between_vertices_is_refused():
         for name, element in (("lamp", LAMP), ("vertex", GLASS), ("eye", EYE)):
             path.add(name, element, frames if name == node else None)
         path["lamp"] >> path["vertex"] >> path["eye"]
-        with pytest.raises(op.PathError, match=sentence):
+        with pytest.raises(op.errors.PathError, match=sentence):
             path.check()
 
 
@@ -261,7 +265,7 @@ ANGLES, OPEN = op.VerticesByAngles((0.3,)), op.Parameter("v")
     ],
 )
 def test_what_is_no_such_vertex_is_refused(kind, arguments, others, message):
-    with pytest.raises(op.ValueFault, match=message) as error:
+    with pytest.raises(op.errors.ValueFault, match=message) as error:
         kind(*arguments, **others)
     assert len(error.value.faults) == 1 or kind is not REFRACTING
 
@@ -278,7 +282,9 @@ def test_media_of_two_vertices_agree_for_each_chain():
     events = [[1.0, 0.0], [0.0, 0.0]]
     first = op.Vertex(1.5, [DOWN, DOWN], 1, events=events)
     second = op.Vertex(1.2, [DOWN, DOWN], 2, outside=[1.5, 1.5], events=events)
-    with pytest.raises(op.PathError, match=r"'e1.in' is lit from n = 1 .* \(at 1, of 2 paths\)"):
+    with pytest.raises(
+        op.errors.PathError, match=r"'e1.in' is lit from n = 1 .* \(at 1, of 2 paths\)"
+    ):
         chain([first, second]).check()
 
 

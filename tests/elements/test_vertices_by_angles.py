@@ -72,9 +72,9 @@ def test_a_chain_by_angles_is_the_chain_of_its_points(engine):
 )
 def test_angles_that_make_no_chain_are_refused(arguments, message):
     for make in (op.VerticesByAngles, op.vertices_from_angles):
-        with pytest.raises(op.PathError, match=message):
+        with pytest.raises(op.errors.PathError, match=message):
             make(*arguments)
-    with pytest.raises(op.ValueFault, match=r"vertices.incidences\[0\] is 114.592 deg"):
+    with pytest.raises(op.errors.ValueFault, match=r"vertices.incidences\[0\] is 114.592 deg"):
         op.vertices_from_angles([2.0])
 
 
@@ -86,7 +86,7 @@ def test_tables_of_angles_with_faults_are_told_by_key(tmp_path):
         ("{ incidences = [0.5], turns = 3 }", "'turns' must be a list, not 3"),
         ("{ turns = [] }", "need an incidence"),
     ):
-        with pytest.raises(op.PathError, match=told):
+        with pytest.raises(op.errors.PathError, match=told):
             read(text.replace(line, f"vertices = {table}"), tmp_path)
 
 

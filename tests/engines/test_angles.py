@@ -88,7 +88,7 @@ def test_parts_of_a_grid_next_to_grazing_incidence_are_like_the_whole(engine):
         out[part.where] = part.light.intensity
     np.testing.assert_allclose(out, wanted, rtol=1e-5)
     theta[2] = 2.0
-    with pytest.raises(op.ParameterError, match="theta"):
+    with pytest.raises(op.errors.ParameterError, match="theta"):
         list(plan.stream(1100, theta=theta, n=n))
 
 

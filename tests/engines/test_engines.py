@@ -175,9 +175,9 @@ def test_one_bad_value_among_many_is_refused_in_the_same_words(engine, bad):
     path = chain([op.Attenuator(op.Parameter("t"))])
     values = np.full(3000, 0.5)
     values[1234] = bad
-    with pytest.raises(op.ParameterError) as one:
+    with pytest.raises(op.errors.ParameterError) as one:
         path.trace(t=bad)
-    with pytest.raises(op.ParameterError) as many:
+    with pytest.raises(op.errors.ParameterError) as many:
         op.Composer(engine=engine).compose(path).run(t=values)
     # Of several, it is told which one is no number.
     assert str(many.value).replace(" at 1234", "") == str(one.value)
@@ -203,7 +203,7 @@ def test_cosines_and_sines_that_cannot_be_are_refused():
         ("delta", (-1.0, 0.0), "outside its range"),
         ("n1", (1.0, 0.0), "is no angle"),
     ):
-        with pytest.raises(op.ParameterError, match=message):
+        with pytest.raises(op.errors.ParameterError, match=message):
             plan.run(**{name: op.CosSin(*pair)})
 
 
@@ -246,14 +246,14 @@ def test_the_first_runs_of_one_path_and_the_later_ones_are_equal_and_touch_no_ar
 def test_parts_engines_and_threads_that_cannot_be_are_refused():
     plan = op.load_preset("malus").compose()
     for size in (0, 1.5, True):
-        with pytest.raises(op.ParameterError, match="a whole number of 1 or more"):
+        with pytest.raises(op.errors.ParameterError, match="a whole number of 1 or more"):
             next(plan.stream(size, angle=[0.1, 0.2]))
     for options, message in (
         ({"engine": "fortran"}, "'fortran' is unknown"),
         ({"threads": 0}, "threads must be a whole number of 1 or more"),
         ({"threads": True}, "threads must be"),
     ):
-        with pytest.raises(op.ComposerError, match=message):
+        with pytest.raises(op.errors.ComposerError, match=message):
             op.Composer(**options)
 
 
@@ -352,7 +352,7 @@ def test_no_rounding_brings_a_value_into_its_range(engine, dtype):
     plan = op.Composer(engine=engine, dtype=dtype).compose(path)
     for bad in (0.0, 0.1 - 1e-12, 1.0 + 1e-12):
         for given in (bad, np.full(2000, bad)):
-            with pytest.raises(op.ParameterError, match="outside its range"):
+            with pytest.raises(op.errors.ParameterError, match="outside its range"):
                 plan.run(t=given)
 
 
@@ -379,7 +379,7 @@ def test_where_numba_may_not_compile_numpy_runs_which_is_told_once(tmp_path, mon
 class Branching(op.Element, kind="test-branching"):
     """An element that asks what its numbers are, and computes with NumPy itself."""
 
-    angle: op.Angle = 0.0
+    angle: op.fields.Angle = 0.0
 
     @staticmethod
     def mueller_rows(xp, angle):

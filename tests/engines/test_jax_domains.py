@@ -214,10 +214,10 @@ def test_random_rings_are_nan_exactly_where_they_are_refused():
         gain = filters[0].mueller().matrix @ op.Retarder(*rng.uniform(0, 3, 2)).mueller().matrix
         gain = rng.uniform(0.5, 4.0) * gain @ filters[1].mueller().matrix
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", op.LoopWarning)
+            warnings.simplefilter("ignore", op.errors.LoopWarning)
             try:
                 expected = plan.run(gain=gain).stokes
-            except op.ParameterError:
+            except op.errors.ParameterError:
                 assert np.isnan(traced(gain)).all()
                 continue
         np.testing.assert_allclose(traced(gain), expected, rtol=1e-9, atol=1e-9 * expected[0])

@@ -115,7 +115,7 @@ def test_what_jax_or_others_cannot_take_is_refused():
 def test_slopes_in_single_precision_are_not_taken_for_double():
     jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
     path = op.load_preset("npgr026")
-    with pytest.raises(op.ComposerError, match="jax_enable_x64"):
+    with pytest.raises(op.errors.ComposerError, match="jax_enable_x64"):
         jax.grad(lambda n: path.trace(n1=n).stokes[0])(1.5)
     assert path.trace(n1=1.5).stokes.dtype == np.float64
 

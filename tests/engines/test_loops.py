@@ -84,7 +84,7 @@ def test_slabs_and_coats_are_their_closed_series():
     assert found == pytest.approx((1 - F) ** 2 * t / (1 - F * F * t), rel=1e-14)
 
 
-@pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.LoopWarning")
 @rows("apart", [1e-3, 1e-5])
 def test_a_slab_keeps_its_digits_next_to_grazing_incidence(apart):
     theta = float(np.pi / 2 - apart)
@@ -93,7 +93,7 @@ def test_a_slab_keeps_its_digits_next_to_grazing_incidence(apart):
     np.testing.assert_allclose(found[:2], expected, rtol=1e-11 * 1e-5 / apart + 1e-14)
 
 
-@pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.LoopWarning")
 @pytest.mark.parametrize("count", [20, slow(150)])
 def test_no_energy_gets_lost_in_networks_without_losses(count):
     for network in networks(count):
@@ -158,7 +158,7 @@ def test_faint_light_goes_round_as_well():
 def test_loops_jones_columns_and_certificates_are_refused_where_they_cannot_be():
     path = slab(1.5, 0.5)
     assert op.PathGraph().loops == "refuse"
-    with pytest.raises(op.PathError, match="loops 'add' is unknown"):
+    with pytest.raises(op.errors.PathError, match="loops 'add' is unknown"):
         op.PathGraph(loops="add")
     for refused, told in (
         (lambda: op.Composer(loops="refuse").compose(path), r"back -> front -> back; .*='sum'"),
@@ -175,22 +175,22 @@ def test_a_gain_of_one_or_more_is_an_error_alone_and_among_many():
     for gain in (1.0, 1.5):
         path = ring(0.5, op.MuellerElement(np.eye(4) * gain * 2, physical=False))
         for run in (path.trace, path.mueller):
-            with pytest.raises(op.ParameterError, match=r"'join\.in' never fades"):
+            with pytest.raises(op.errors.ParameterError, match=r"'join\.in' never fades"):
                 run()
     path, kept = ring(op.Parameter("kept")), np.linspace(0.0, 0.5, 70_000)
     np.testing.assert_allclose(path.trace(kept=kept).intensity, 1.0, rtol=1e-14)
     kept[1234] = 1.0
-    with pytest.raises(op.ParameterError, match="never fades"):
+    with pytest.raises(op.errors.ParameterError, match="never fades"):
         path.trace(kept=kept)
 
 
 def test_next_to_a_gain_of_one_nothing_gets_lost_and_it_is_warned_of():
     warned = r"all but 1e-05 comes back .* condition number .* 2e\+05"
-    with pytest.warns(op.LoopWarning, match=warned):
+    with pytest.warns(op.errors.LoopWarning, match=warned):
         light = ring(0.99999).trace()
     # All of it leaves in the end.
     assert light.intensity == pytest.approx(1.0, rel=1e-13)
-    with pytest.warns(op.LoopWarning, match="all but 8.9e-16"):
+    with pytest.warns(op.errors.LoopWarning, match="all but 8.9e-16"):
         assert ring(1.0 - 2.0**-50).trace().intensity == 1.0
 
 
@@ -202,7 +202,7 @@ def test_a_loop_shared_by_many_sources_is_judged_once():
     path["split.transmitted"] >> path["split.in"]
     path["split.reflected"] >> op.Detector()
     for run in (path.trace, path.compose().mueller):
-        with pytest.warns(op.LoopWarning, match="all but 1e-06"):
+        with pytest.warns(op.errors.LoopWarning, match="all but 1e-06"):
             run()
 
 
@@ -241,7 +241,7 @@ def test_light_goes_round_in_a_medium_that_absorbs():
         np.testing.assert_allclose(light.stokes, known[port].stokes, rtol=0, atol=1e-15)
     path = slab(1.5, 0.5)
     path.replace("front", op.Interface(1.5 + 0.1j, 0.5))
-    with pytest.raises(op.PathError, match=r"lit from n = 1\.5 and k = 0\.1 behind 'front'"):
+    with pytest.raises(op.errors.PathError, match=r"lit from n = 1\.5 and k = 0\.1 behind 'front'"):
         path.trace_all()
 
 

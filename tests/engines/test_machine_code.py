@@ -214,7 +214,7 @@ def test_arrays_and_parts_of_complex_numbers_of_any_precision_are_read_as_what_t
 
 
 @pytest.mark.slow  # Of a grid by Numba; its stack takes seconds to be compiled.
-@pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.CoherenceWarning")
 def test_whole_numbers_of_one_axis_of_a_grid_are_whole_numbers_along_the_other():
     # Indices are scaled by powers of two, whose exponents depend on the indices alone.
     material = op.Material(op.Parameter("n"), op.Parameter("k"))

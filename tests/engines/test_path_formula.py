@@ -21,7 +21,7 @@ class Turning(op.Element):
     A formula asks it once, in symbols.
     """
 
-    turn: op.Angle
+    turn: op.fields.Angle
     seen: ClassVar[list] = []
 
     @staticmethod
@@ -129,7 +129,9 @@ def test_an_angle_and_its_pair_turn_light_alike(rotator, sign, angle):
         np.testing.assert_allclose(found, [expected] * 6, rtol=0, atol=1e-15)
 
 
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")  # Of each run, as one test says.
+@pytest.mark.filterwarnings(
+    "ignore::optipath.errors.AngleWarning"
+)  # Of each run, as one test says.
 @rows("most", [1.5, 3.0, 6.0, 1e3])
 @rows("least", [0.0, -1.0])
 def test_angles_up_to_any_limit_are_right(least, most):
@@ -139,7 +141,7 @@ def test_angles_up_to_any_limit_are_right(least, most):
     plan = op.Composer(engine="numpy").compose(path)
     expected = np.cos(angles) ** 2
     if most > 2 * np.pi:
-        with pytest.warns(op.AngleWarning, match="parameter 'a' is a plain number"):
+        with pytest.warns(op.errors.AngleWarning, match="parameter 'a' is a plain number"):
             plan.run(a=angles)
     np.testing.assert_allclose(plan.run(a=angles).intensity, expected, rtol=0, atol=1e-15)
     for place in (0, 7, 1000, 1500, 2000, 2900, 3000):

@@ -40,7 +40,12 @@ def fault_of(attack):
     try:
         with warnings.catch_warnings(), _limited(3.0 * attack.seconds):
             warnings.simplefilter("error")
-            for kind in (op.LoopWarning, op.AngleWarning, op.ColourWarning, op.CoherenceWarning):
+            for kind in (
+                op.errors.LoopWarning,
+                op.errors.AngleWarning,
+                op.errors.ColourWarning,
+                op.errors.CoherenceWarning,
+            ):
                 warnings.simplefilter("ignore", kind)
             attack.act()
     except op.OptipathError as error:

@@ -110,7 +110,7 @@ def test_paths_that_part_and_meet_are_carried_by_jones_columns_unless_they_depol
     np.testing.assert_allclose(plan.mueller(theta=theta).matrix, matrix, rtol=0, atol=5e-15)
     assert "Jones" in plan.explain()
     foil = op.MuellerElement(np.diag([1.0, 0.5, 0.5, 0.5]))
-    with pytest.raises(op.ComposerError, match=r"'mueller\.out' .* may depolarise"):
+    with pytest.raises(op.errors.ComposerError, match=r"'mueller\.out' .* may depolarise"):
         op.Composer(composing="jones").compose(op.Source() >> foil >> op.Detector())
 
 
@@ -283,7 +283,7 @@ def test_bounds_enclose_one_by_the_hyperbolic_formula_whatever_the_signs(dop, sh
     ],
 )
 def test_shares_that_cannot_be_are_refused(dop, shares, message):
-    with pytest.raises(op.ParameterError, match=message):
+    with pytest.raises(op.errors.ParameterError, match=message):
         op.intensity_bounds(dop, shares)
 
 

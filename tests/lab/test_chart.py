@@ -182,7 +182,7 @@ def test_what_is_not_read_has_no_error_and_what_cannot_be_measured_is_lost_left_
     found = path_chart(chain([op.Attenuator(0.5)], STATE), "grey", LITTLE)
     assert {c["method"] for c in found["contenders"]} == {"stable"}
     assert "memory" in found["limits_ns"]
-    with pytest.raises(op.ParameterError, match=r"batch of shape \(3,\)"):
+    with pytest.raises(op.errors.ParameterError, match=r"batch of shape \(3,\)"):
         path_chart(chain([op.Attenuator([0.1, 0.2, 0.3])], STATE), "three", LITTLE)
 
 

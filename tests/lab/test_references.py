@@ -93,9 +93,9 @@ def test_a_batch_has_one_reference_for_each_and_turns_and_angles_are_exact():
     lights = list(exact_batch(MALUS.graph, angle=angles))
     for angle, light in zip(angles.tolist(), lights, strict=True):
         assert light["eye"] == of_eye(MALUS, angle=angle)
-    with pytest.raises(op.PathError, match="PathGraph"):
+    with pytest.raises(op.errors.PathError, match="PathGraph"):
         exact_lights("npgr026")
-    with pytest.raises(op.ParameterError, match="single values"):
+    with pytest.raises(op.errors.ParameterError, match="single values"):
         exact_lights(MALUS, angle=[0.1, 0.2])
     # Turns are exact, and angles are taken as they are.
     quartz = op.Medium(np.pi / 0.7, rotation=0.35)
@@ -180,7 +180,7 @@ def test_every_element_and_world_frames_have_a_reference_that_agrees_with_the_li
 class Unregistered(op.Element):
     """An element of one's own."""
 
-    share: op.Fraction = 0.5
+    share: op.fields.Fraction = 0.5
 
     @staticmethod
     def mueller_rows(xp, share):
@@ -206,7 +206,7 @@ def test_an_element_of_ones_own_has_the_reference_that_is_registered_for_it_alon
         r"class Unregistered have no reference; register .*element_reference\.matrix_of\.register"
     )
     for reference in (exact_lights, exact_stokes):
-        with pytest.raises(op.PathError, match=cure):
+        with pytest.raises(op.errors.PathError, match=cure):
             reference(chain([Unregistered(0.5)], HALF))
 
 

@@ -32,7 +32,7 @@ def test_a_batch_has_a_shape_and_is_gone_through_one_by_one():
         assert batch.reshape(3, 2).shape == batch.reshape((3, -1)).shape == (3, 2)
         assert [row.shape for row in batch] == [(3,), (3,)]
     assert (ONE.shape, ONE.ndim, ONE.size, op.Mueller(np.eye(4)).shape) == ((), 0, 1, ())
-    with pytest.raises(op.ShapeError, match=r"6 lights of shape \(2, 3\)"):
+    with pytest.raises(op.errors.ShapeError, match=r"6 lights of shape \(2, 3\)"):
         light.reshape(4)
     assert list(SEVERAL) == [op.Light(stokes) for stokes in THREE]
 
@@ -76,12 +76,12 @@ def test_frames_are_indexed_along():
 
 
 def test_a_single_light_or_matrix_is_no_batch_and_an_index_that_does_not_fit_is_told():
-    assert issubclass(op.LightError, TypeError)
+    assert issubclass(op.errors.LightError, TypeError)
     matrix = op.Mueller(np.eye(4))
     for call in (len, iter, list, bool):
-        with pytest.raises(op.LightError, match=r"light\.stokes"):
+        with pytest.raises(op.errors.LightError, match=r"light\.stokes"):
             call(ONE)
-        with pytest.raises(op.LightError, match=r"mueller\.matrix"):
+        with pytest.raises(op.errors.LightError, match=r"mueller\.matrix"):
             call(matrix)
     with pytest.raises(op.OptipathError, match=r"Mueller matrix.*mueller\.matrix"):
         matrix[0, 1]
@@ -91,7 +91,9 @@ def test_a_single_light_or_matrix_is_no_batch_and_an_index_that_does_not_fit_is_
     wrong = ["S0", slice("a", "b"), slice(0, 2, 0), [[0, 1], [2]]]
     for light, keys in ((ONE, [0, (..., 0), *wrong]), (batch, [(0, 0, 0), *wrong])):
         for key in keys:
-            with pytest.raises(op.IndexFault, match=r"not fit, .* light\.stokes\[\.\.\., 0\]"):
+            with pytest.raises(
+                op.errors.IndexFault, match=r"not fit, .* light\.stokes\[\.\.\., 0\]"
+            ):
                 light[key]
 
 
@@ -106,7 +108,7 @@ def test_factors_broadcast_over_the_batch_and_lose_no_precision():
     light = np.array([1.0, 2.0]) * op.Light(THREE[1])
     assert light == op.Light([THREE[1], [4.0, 2.0, 0.0, -2.0]])
     assert (np.ones((2, 1)) * SEVERAL).shape == (2, 3)
-    with pytest.raises(op.ShapeError, match=r"light \(3,\), factor \(2,\)"):
+    with pytest.raises(op.errors.ShapeError, match=r"light \(3,\), factor \(2,\)"):
         SEVERAL * [1.0, 2.0]
     single = op.Light(np.array([1.0, 0.5, 0.0, 0.0], np.float32))
     assert (0.1 * single).stokes.dtype == np.float32
@@ -147,7 +149,7 @@ REFUSED = {
 
 @rows("sentence, wrong", [(words, each) for words, several in REFUSED.items() for each in several])
 def test_what_light_cannot_do_is_refused_in_words(wrong, sentence):
-    with pytest.raises(op.LightError, match=sentence):
+    with pytest.raises(op.errors.LightError, match=sentence):
         wrong(ONE)
 
 
@@ -178,7 +180,7 @@ def test_numpy_reads_the_numbers_of_light_and_of_matrices():
         with pytest.raises(op.OptipathError, match=r"as in op\.Source\(stokes=light\.stokes\)"):
             make(ONE)
     a, b = op.Light(THREE[0]), op.Light(THREE[1])
-    with pytest.raises(op.ShapeError, match=r"give light\.stokes"):
+    with pytest.raises(op.errors.ShapeError, match=r"give light\.stokes"):
         op.Light([a, b])
     assert op.Light([a.stokes, b.stokes], a.frame)[1] == b
 
@@ -202,9 +204,9 @@ def test_an_element_acts_on_light_and_on_matrices_as_its_matrix_does():
     light = op.Light([1.0, 0.2, 0.3, 0.4])
     both = op.Retarder(1.0, 0.3) @ op.Polarizer(0.2).mueller()
     np.testing.assert_allclose(both @ light, op.Retarder(1.0, 0.3) @ (op.Polarizer(0.2) @ light))
-    with pytest.raises(op.PathError, match="parameter 'a' of polarizer has no value yet"):
+    with pytest.raises(op.errors.PathError, match="parameter 'a' of polarizer has no value yet"):
         op.Polarizer(op.Parameter("a")) @ light
-    with pytest.raises(op.PathError, match="in -> reflected"):
+    with pytest.raises(op.errors.PathError, match="in -> reflected"):
         op.BeamSplitter() @ light
 
 

@@ -70,7 +70,7 @@ def test_the_tolerance_is_against_the_largest_eigenvalue_by_default_of_the_preci
 
 def test_a_tolerance_is_a_finite_number_of_at_least_0():
     for wrong in (-1e-9, np.nan, np.inf, "1e-9", [1e-9], True, 10**400):
-        with pytest.raises(op.ValueFault, match=r"give a number >= 0") as fault:
+        with pytest.raises(op.errors.ValueFault, match=r"give a number >= 0") as fault:
             op.Mueller(np.eye(4)).is_physical(wrong)
         assert repr(wrong)[:20] in str(fault.value)
     for right in (0, 1e-9, np.float32(1e-9), np.array(1e-9)):

@@ -36,7 +36,7 @@ def peak(centre, width):
     return np.exp(-(((GRID - centre) / width) ** 2))
 
 
-@pytest.mark.filterwarnings("ignore::optipath.ColourWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.ColourWarning")
 @rows("asked", COMPUTED["xyz"])
 def test_tristimulus_values_are_those_of_colour_science(asked):
     grid = np.array(asked["nm"])
@@ -68,7 +68,7 @@ def test_y_is_that_of_white_and_of_lumens():
     assert (light * 2.0).to_xyz(white=light)[1] == 2.0
     path = op.Source(3.0, spectrum=op.Spectrum.line("555 nm")) >> op.Detector()
     light = path.trace(wavelength=np.arange(400.0, 800.5, 0.5)[::-1] * NM)
-    with pytest.warns(op.ColourWarning, match="from 400 nm to 800 nm"):
+    with pytest.warns(op.errors.ColourWarning, match="from 400 nm to 800 nm"):
         found = light.to_xyz()
     np.testing.assert_allclose(found[1], 3.0 * 683.0, rtol=1e-4)
     rising = light_of(smooth(GRID))
@@ -106,14 +106,16 @@ def test_white_may_be_faint_or_light_of_the_path_without_the_sample():
 
 def test_wavelengths_that_leave_out_what_is_seen_are_told_at_the_line_that_asks():
     light = light_of(np.ones(61), np.linspace(400.0, 700.0, 61) * NM)
-    with pytest.warns(op.ColourWarning, match="known from 400 nm to 700 nm, and taken for dark"):
+    with pytest.warns(
+        op.errors.ColourWarning, match="known from 400 nm to 700 nm, and taken for dark"
+    ):
         light.to_xyz()
     light.to_xyz(outside="nearest")
     light = light_of(np.ones(11), np.linspace(380.0, 780.0, 11) * NM)
-    with pytest.warns(op.ColourWarning, match="wavelengths are 40 nm apart"):
+    with pytest.warns(op.errors.ColourWarning, match="wavelengths are 40 nm apart"):
         light.to_xyz()
     for asked in (light.to_xyz, lambda: light.to_srgb(D65, out_of_gamut="keep")):
-        with pytest.warns(op.ColourWarning) as caught:
+        with pytest.warns(op.errors.ColourWarning) as caught:
             asked()
         assert {warning.filename for warning in caught} == {__file__}
 
@@ -128,18 +130,18 @@ def test_wavelengths_that_leave_out_what_is_seen_are_told_at_the_line_that_asks(
     ],
 )
 def test_what_is_no_white_or_observer_is_refused(given, sentence):
-    with pytest.raises(op.ValueFault, match=sentence):
+    with pytest.raises(op.errors.ValueFault, match=sentence):
         light_of(np.ones(81)).to_xyz(**given)
 
 
 def test_light_that_has_no_colour_is_refused():
     lights, whites = (light_of(np.ones((81, n)), VISIBLE[:, None]) for n in (3, 2))
-    with pytest.raises(op.ShapeError, match=r"light \(3,\), white \(2,\)"):
+    with pytest.raises(op.errors.ShapeError, match=r"light \(3,\), white \(2,\)"):
         lights.to_xyz(white=whites)
-    with pytest.raises(op.LightError, match="wavelengths vary along no axis"):
+    with pytest.raises(op.errors.LightError, match="wavelengths vary along no axis"):
         light_of(1.0, 5e-7).to_xyz()
     light = light_of(np.ones(3), np.array([900.0, 910.0, 920.0]) * NM)
-    with pytest.raises(op.LightError, match=r"light of 900 nm \.\. 920 nm is not seen"):
+    with pytest.raises(op.errors.LightError, match=r"light of 900 nm \.\. 920 nm is not seen"):
         light.to_xyz()
 
 
@@ -173,11 +175,13 @@ def test_white_of_d65_of_lamps_and_of_displays_is_white():
 
 def test_all_that_is_wrong_with_a_colour_is_told_at_once():
     lights = light_of([0.2 * np.ones(81), 40.0 * peak(520.0, 5.0)]).reshape(2, 81)
-    with pytest.raises(op.ValueFault, match=r"1 of 2 colours are out .*, by up to \d\.\d+ of its"):
+    with pytest.raises(
+        op.errors.ValueFault, match=r"1 of 2 colours are out .*, by up to \d\.\d+ of its"
+    ):
         lights.to_srgb(white=light_of(np.ones(81)))
-    with pytest.raises(op.ValueFault, match="relative to what is white; give white="):
+    with pytest.raises(op.errors.ValueFault, match="relative to what is white; give white="):
         light_of(np.ones(81)).to_srgb()
-    with pytest.raises(op.ValueFault) as caught:
+    with pytest.raises(op.errors.ValueFault) as caught:
         light_of(np.ones(81)).to_srgb(adapt="yes", out_of_gamut="clipped")
     assert len(caught.value.faults) == 3
     colour = under(D65, 0.5).to_srgb(white=D65)
@@ -224,5 +228,5 @@ def test_slopes_of_colours_are_finite_where_they_are_dark_or_out_of_gamut(jax, j
     for way in ("clip", "scale", "keep"):
         slopes = jax.vmap(jacobian(lambda share, way=way: red(share, way)))
         assert np.isfinite(slopes(np.array([0.0, 50.0]))).all()
-    with pytest.raises(op.ValueFault, match="JAX traces are in gamut is not known"):
+    with pytest.raises(op.errors.ValueFault, match="JAX traces are in gamut is not known"):
         jax.grad(lambda share: red(share, "refuse"))(0.5)

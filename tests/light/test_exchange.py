@@ -133,7 +133,7 @@ def test_each_kind_of_picture_is_the_function_of_its_name_in_axes_that_may_be_gi
         ("stokes", {"publish": [1]}, "stokes option 'publish' .* did you mean 'published'"),
         ("ellipse", {"by": [1]}, "ellipse option 'by' is unknown"),
     ):
-        with pytest.raises(op.ParameterError, match=told):
+        with pytest.raises(op.errors.ParameterError, match=told):
             light.plot(kind, **options)
 
 

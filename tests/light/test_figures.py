@@ -10,7 +10,7 @@ from random_matrices import jones, of_jones
 from tables import rows
 
 pytestmark = pytest.mark.filterwarnings(
-    "ignore::optipath.CoherenceWarning"
+    "ignore::optipath.errors.CoherenceWarning"
 )  # Of films, on purpose.
 
 SCALARS = ["diattenuation", "polarizance", "depolarization_index", "psi", "delta"]

@@ -27,7 +27,9 @@ def test_a_frame_turns_x_to_y_and_is_that_of_the_world_by_default():
     assert np.array_equal([frame.x, frame.y, frame.z], np.eye(3))
     turned = op.Frame().turned(np.pi / 2)
     np.testing.assert_allclose([turned.x, turned.y], [[0, 1, 0], [-1, 0, 0]], rtol=0, atol=1e-16)
-    with pytest.raises(op.ValueFault, match=r"'a bit' is not a quantity; .* such as '30 deg'"):
+    with pytest.raises(
+        op.errors.ValueFault, match=r"'a bit' is not a quantity; .* such as '30 deg'"
+    ):
         op.Frame().turned("a bit")
 
 
@@ -53,7 +55,7 @@ def test_turning_a_frame_by_a_gives_cos_2a_and_sin_2a_wherever_it_stands(rotatio
 def test_frames_of_other_directions_are_refused_but_for_rounding(z, told):
     off = op.Frame.from_direction(z=z, x=(1, 0, 0))
     for align in (op.Frame().turn_to, lambda off: op.Light([1, 0, 0, 0], off) + STATE):
-        with pytest.raises(op.FrameError, match=told):
+        with pytest.raises(op.errors.FrameError, match=told):
             align(off)
     op.Frame().turn_to(op.Frame.from_direction(z=(0, 5e-9, 1), x=(1, 0, 0)))
 
@@ -82,13 +84,13 @@ def test_frames_rounded_to_less_precision_are_aligned_with_others(rotation, angl
 
 def test_axes_of_doubles_may_say_what_they_were_rounded_to():
     x, y, z = np.float32([[0.6, 0.8, 0], [-0.8, 0.6, 0], [0, 0, 1]]).astype(float)
-    with pytest.raises(op.FrameError, match="off by"):
+    with pytest.raises(op.errors.FrameError, match="off by"):
         op.Frame(x, y, z)
     frame = op.Frame(x, y, z, rounding=np.finfo(np.float32).eps)
     assert abs(np.linalg.norm(frame.x) - 1) <= 1e-15
     assert copy.copy(frame) == frame
     for wrong in (-1, 0.1, np.nan, "1e-7"):
-        with pytest.raises(op.FrameError, match=r"give one within 0 .. 0.0009765625"):
+        with pytest.raises(op.errors.FrameError, match=r"give one within 0 .. 0.0009765625"):
             op.Frame(rounding=wrong)
 
 
@@ -109,7 +111,7 @@ def test_axes_of_doubles_may_say_what_they_were_rounded_to():
 )
 def test_axes_that_are_no_frame_are_refused(axes, message):
     op.Frame(x=(1 + 1e-9, 0, 0))
-    with pytest.raises(op.FrameError, match=message):
+    with pytest.raises(op.errors.FrameError, match=message):
         op.Frame(**axes)
 
 
@@ -120,7 +122,7 @@ def test_what_is_no_frame_or_rotation_is_refused():
         lambda: op.Mueller(np.eye(4), frame_in="frame"),
         lambda: op.Frame().rotated(np.eye(2)),
     ):
-        with pytest.raises(op.FrameError, match=r"'frame'|must be Frames|3, 3\)"):
+        with pytest.raises(op.errors.FrameError, match=r"'frame'|must be Frames|3, 3\)"):
             make()
 
 
@@ -135,7 +137,7 @@ def test_from_direction_keeps_z_and_puts_x_on_the_side_asked_for(z, x):
 def test_a_direction_of_any_length_will_do_and_an_axis_very_near_to_it_but_none_along_it():
     for length in (1e-300, 1e-13, 1e300):
         assert np.array_equal(op.Frame.from_direction((0, 0, length), (length, 0, 0)).z, UP)
-    with pytest.raises(op.FrameError, match="perpendicular"):
+    with pytest.raises(op.errors.FrameError, match="perpendicular"):
         op.Frame.from_direction(z=(1, 0, 0), x=(2, 0, 0))
     z = np.array([0.3, 0.5, 0.81]) / np.linalg.norm([0.3, 0.5, 0.81])
     frame = op.Frame.from_direction(z, z + np.array([1e-8, 0, 0]))
@@ -234,7 +236,7 @@ def test_a_degenerate_plane_keeps_the_axis_that_the_light_came_with():
     ],
 )
 def test_what_makes_no_plane_is_refused(arguments, message):
-    with pytest.raises(op.FrameError, match=message):
+    with pytest.raises(op.errors.FrameError, match=message):
         op.plane_of_incidence(*arguments)
 
 

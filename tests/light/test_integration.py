@@ -115,9 +115,9 @@ def test_edges_and_responses_weigh_what_is_added_up():
 )
 def test_a_response_that_is_power_is_refused_as_a_detector_refuses_it(power):
     light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"])
-    with pytest.raises(op.ValueFault) as of_detector:
+    with pytest.raises(op.errors.ValueFault) as of_detector:
         op.Detector(response=power)
-    with pytest.raises(op.ValueFault) as found:
+    with pytest.raises(op.errors.ValueFault) as found:
         light.integrate(response=power)
     assert str(found.value) == str(of_detector.value).replace("Detector r", "the r")
 
@@ -136,7 +136,7 @@ def test_light_of_one_wavelength_fills_one_bin(shape, wavelength, expected):
         every = np.broadcast_to([60.0, 0, 30.0, 0], [*expected, 4])
         np.testing.assert_allclose(found, every, rtol=1e-14, strict=True)
     assert light.integrate(response=0.5, edges=edges).intensity == pytest.approx(30.0, rel=1e-14)
-    with pytest.raises(op.ValueFault, match="bin 0 is from 400 nm to 450 nm"):
+    with pytest.raises(op.errors.ValueFault, match="bin 0 is from 400 nm to 450 nm"):
         light.integrate(edges=["400 nm", "450 nm"])
 
 
@@ -154,7 +154,7 @@ def test_frames_stay_and_those_that_differ_by_wavelength_are_refused():
     light = op.Light(stokes, frame, wavelength=EVEN[:3])
     assert light.integrate().frame == op.Frame().turned([0.0, 0.5])
     light = op.Light(stokes[0], op.Frame().turned([0.0, 0.2, 0.4]), wavelength=EVEN[:3])
-    with pytest.raises(op.LightError, match=r"a frame of its own.*light\.in_frame\(frame\)"):
+    with pytest.raises(op.errors.LightError, match=r"a frame of its own.*light\.in_frame\(frame\)"):
         light.integrate()
     assert light.in_frame(op.Frame()).integrate().dop < 0.5
 
@@ -171,7 +171,7 @@ def test_frames_stay_and_those_that_differ_by_wavelength_are_refused():
     ],
 )
 def test_light_that_is_no_spectrum_is_refused(light, sentence):
-    with pytest.raises(op.LightError, match=sentence):
+    with pytest.raises(op.errors.LightError, match=sentence):
         light.integrate()
 
 
@@ -211,5 +211,5 @@ def test_slopes_by_jax_are_those_of_the_closed_form_but_wavelengths_are_not_trac
 
     np.testing.assert_allclose(power(0.3), 165.0 * np.cos(0.3) ** 2, rtol=1e-14)
     np.testing.assert_allclose(jacobian(power)(0.3), -165.0 * np.sin(0.6), rtol=1e-12)
-    with pytest.raises(op.ParameterError, match="wavelengths that light is added up over"):
+    with pytest.raises(op.errors.ParameterError, match="wavelengths that light is added up over"):
         jax.jacfwd(power, argnums=1)(0.3, 1.0)

@@ -56,14 +56,14 @@ def test_figures_of_what_is_known_and_what_is_done_to_it_keep_its_precision():
     ],
 )
 def test_what_takes_numbers_says_so_where_jax_traces(figure):
-    with pytest.raises(op.ParameterError, match="numbers, not values that JAX traces"):
+    with pytest.raises(op.errors.ParameterError, match="numbers, not values that JAX traces"):
         jax.jit(lambda m: figure(op.Mueller(m)))(MATRIX)
 
 
 def test_light_that_jax_traces_is_no_array_and_tolerances_are_known():
-    with pytest.raises(op.ParameterError, match="tolerance"):
+    with pytest.raises(op.errors.ParameterError, match="tolerance"):
         jax.jit(lambda t: op.Mueller(np.eye(4)).is_physical(t))(1e-9)
-    with pytest.raises(op.ParameterError, match=r"take light\.stokes"):
+    with pytest.raises(op.errors.ParameterError, match=r"take light\.stokes"):
         jax.jit(lambda s: jnp.asarray(op.Light(s)))(STOKES)
 
 
@@ -143,7 +143,7 @@ def test_an_index_may_be_traced_and_takes_one_of_several_frames_at_which_nobody_
     lights, world = turned @ op.Light(STOKES[0]), op.Frame()
     found = jax.jit(lambda i: (2 * lights[i]).stokes)(2)
     np.testing.assert_allclose(found, 2 * lights.stokes[2], rtol=1e-6)
-    with pytest.raises(op.FrameError, match=r"light\.in_frame\(frame\)\[i\]"):
+    with pytest.raises(op.errors.FrameError, match=r"light\.in_frame\(frame\)\[i\]"):
         jax.jit(lambda i: lights[i].in_frame(world).stokes)(2)
     cured = jax.jit(lambda i: lights.in_frame(world)[i].stokes)(2)
     np.testing.assert_allclose(cured, lights[2].in_frame(world).stokes, rtol=1e-6)

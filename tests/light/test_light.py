@@ -43,13 +43,13 @@ def test_batches_of_lights_and_frames_broadcast_or_are_named():
         (lambda: matrices @ two, r"matrix \(3,\), light \(2,\)"),
         (lambda: matrices @ matrices[:2], r"matrix \(3,\), other matrix \(2,\)"),
     ):
-        with pytest.raises(op.ShapeError, match=shapes):
+        with pytest.raises(op.errors.ShapeError, match=shapes):
             wrong()
 
 
 @rows("stokes", [[1.0, 0.0, 0.0], 1.0, [1j, 0, 0, 0], "abcd"])
 def test_what_is_no_stokes_vector_is_refused(stokes):
-    with pytest.raises(op.ShapeError, match=r"\(\.\.\., 4\)"):
+    with pytest.raises(op.errors.ShapeError, match=r"\(\.\.\., 4\)"):
         op.Light(stokes)
 
 

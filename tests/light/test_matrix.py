@@ -25,10 +25,10 @@ def test_matrices_multiply_from_the_left_and_broadcast():
     assert (reflection @ polarizers @ light).stokes.shape == (3, 5, 4)
     tilted = op.Frame.from_direction(z=(1, 0, 0), x=(0, 1, 0))
     for met in (light, op.Mueller(np.eye(4))):
-        with pytest.raises(op.FrameError, match="one direction"):
+        with pytest.raises(op.errors.FrameError, match="one direction"):
             op.Mueller(np.eye(4), frame_in=tilted) @ met
     for wrong in (np.eye(3), np.zeros(4), np.eye(4) * 1j):
-        with pytest.raises(op.ShapeError, match=r"\(\.\.\., 4, 4\)"):
+        with pytest.raises(op.errors.ShapeError, match=r"\(\.\.\., 4, 4\)"):
             op.Mueller(wrong)
 
 
@@ -66,7 +66,7 @@ TOO_MUCH = op.Mueller(np.diag([3.0, 0.0, 0.0, 5.0]))
     ],
 )
 def test_a_matrix_that_makes_no_light_of_light_is_refused(matrix, light, problem):
-    with pytest.raises(op.LightError, match=problem) as told:
+    with pytest.raises(op.errors.LightError, match=problem) as told:
         matrix @ light
     for cure in ("matrix.nearest_physical()", "Light(..., physical=False)"):
         assert cure in str(told.value)

@@ -170,7 +170,9 @@ def test_light_that_comes_back_from_any_factor_has_its_noise_and_its_ellipse(fac
     ],
 )
 def test_what_no_light_can_be_is_refused_with_the_numbers_and_the_cure(stokes, sentence):
-    with pytest.raises(op.ValueFault, match=rf"{sentence}.*physical=False.*nearest_physical"):
+    with pytest.raises(
+        op.errors.ValueFault, match=rf"{sentence}.*physical=False.*nearest_physical"
+    ):
         op.Light(stokes)
 
 
@@ -197,7 +199,7 @@ def test_what_is_computed_with_noise_is_not_refused():
     assert (op.Mueller(np.diag([0.5, 1, 1, 1])) @ (noise / 2)).dop == pytest.approx(2 * 3**0.5)
     for again in (pickle.loads(pickle.dumps(noise)), copy.deepcopy(noise)):
         assert again == noise
-    with pytest.raises(op.ValueFault, match=r"173\.205 %"):
+    with pytest.raises(op.errors.ValueFault, match=r"173\.205 %"):
         op.Light([1e-300, 1e-300, 1e-300, 1e-300])
     assert op.Light([1e-300, 1e-300, 1e-300, 1e-300], physical=False).dop > 1.7
 
@@ -232,5 +234,5 @@ def test_light_that_jax_traces_is_not_judged_and_comes_near(jacobian):
     np.testing.assert_allclose(jax.jit(nearest)(stokes), [1.0, 0.6, 0.0, 0.8], rtol=1e-6)
     dark = jax.numpy.zeros(4)
     assert np.isfinite(jacobian(nearest)(dark)).all()
-    with pytest.raises(op.ValueFault, match="500 %"):
+    with pytest.raises(op.errors.ValueFault, match="500 %"):
         op.Light(jax.numpy.array(stokes))

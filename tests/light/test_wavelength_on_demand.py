@@ -84,7 +84,7 @@ def test_lights_of_different_wavelengths_are_not_added():
         lambda: DIMMED.trace(wavelength="2 eV") + DIMMED.bind(wavelength="2.1 eV").trace(),
     ]
     for add in both:
-        with pytest.raises(op.LightError, match=r"different wavelengths, .* nm and .* nm"):
+        with pytest.raises(op.errors.LightError, match=r"different wavelengths, .* nm and .* nm"):
             add()
 
 
@@ -149,7 +149,9 @@ def test_light_is_by_no_wavelength_where_several_are_in_doubt():
     light = path.trace(wavelength=GRID, probe="516 nm")
     assert light.wavelength is None
     for each in (light, light[:2], 2.0 * light):
-        with pytest.raises(op.LightError, match=r"s, probe and wavelength; .*at_wavelengths"):
+        with pytest.raises(
+            op.errors.LightError, match=r"s, probe and wavelength; .*at_wavelengths"
+        ):
             each.integrate()
     known = light.at_wavelengths(GRID).integrate().intensity
     between = (light.intensity[1:] + light.intensity[:-1]) / 2.0

@@ -33,7 +33,7 @@ def test_wavelengths_and_their_limits_are_lengths_energies_wave_numbers_and_freq
     assert wavelength_of("20000 1/cm") == wavelength_of("20000 cm^-1") == pytest.approx(5e-7)
     assert wavelength_of("299.792458 THz") == pytest.approx(1e-6, rel=1e-15)
     for text in ("0 eV", "-2 eV", "1e999 THz"):
-        with pytest.raises(op.UnitError, match="above 0"):
+        with pytest.raises(op.errors.UnitError, match="above 0"):
             wavelength_of(text)
     for text in ("516 nm", "gold", "", "2 eV 3"):  # What has another unit is left to others.
         assert wavelength_of(text) is None
@@ -54,9 +54,9 @@ def test_what_is_no_wavelength_is_refused(given, said):
 
 def test_what_is_beyond_a_range_is_told_and_all_units_are_named():
     wavelength = op.Wavelength(minimum="380 nm", maximum="700 nm")
-    with pytest.raises(op.ParameterError, match=r"400 nm', and for micrometres '400 um'$"):
+    with pytest.raises(op.errors.ParameterError, match=r"400 nm', and for micrometres '400 um'$"):
         wavelength.resolve(400)
-    with pytest.raises(op.ParameterError, match=r"is 720 nm, outside .*; give 380"):
+    with pytest.raises(op.errors.ParameterError, match=r"is 720 nm, outside .*; give 380"):
         wavelength.resolve(720e-9)
     units = "nm, um, mm, cm, dm, m, angstrom, or eV, 1/cm, THz$"
     for text in ("516", "516 deg"):
@@ -84,7 +84,7 @@ def test_a_grid_has_the_numbers_of_its_texts_the_widths_of_trapezoids_and_bins_u
         ),
         ((380, 700, 40), "below 0.1 m"),
     ):
-        with pytest.raises(op.ValueFault, match=sentence):
+        with pytest.raises(op.errors.ValueFault, match=sentence):
             op.wavelengths(*given)
     for grid in (UNEVEN, UNEVEN[::-1]):
         density = np.random.default_rng(7).uniform(0.0, 3.0, grid.size)
@@ -152,7 +152,7 @@ def test_a_wavelength_that_stands_elsewhere_too_is_read_at_every_run():
 def test_a_wavelength_that_is_bound_known_or_a_default_gives_numbers_and_without_one_it_is_told():
     bound = mirror().bind(wavelength="500 nm")
     assert bound.trace().stokes == pytest.approx(by_numbers(5e-7))
-    with pytest.raises(op.ParameterError, match="bound to 500 nm"):
+    with pytest.raises(op.errors.ParameterError, match="bound to 500 nm"):
         bound.trace(wavelength=6e-7)
     found = mirror().bind(tilt=0.3).trace(wavelength=5e-7).stokes
     assert found == pytest.approx(by_numbers(5e-7, tilt=0.3))
@@ -161,15 +161,15 @@ def test_a_wavelength_that_is_bound_known_or_a_default_gives_numbers_and_without
     assert path.trace(wavelength="600 nm").stokes == pytest.approx(by_numbers(6e-7))
     n, k = metal(wavelength=5e-7)
     assert (float(n), float(k)) == (1.0, 1.0 + np.sqrt(0.5))
-    with pytest.raises(op.ParameterError) as caught:
+    with pytest.raises(op.errors.ParameterError) as caught:
         mirror().trace(wavelength="900 nm")
     assert len(caught.value.faults) == 1
     for word in ("900 nm", "300 nm .. 800 nm", "a metal", "take another metal"):
         assert word in str(caught.value)
-    with pytest.raises(op.ParameterError, match="'wavelength' has no value"):
+    with pytest.raises(op.errors.ParameterError, match="'wavelength' has no value"):
         mirror().trace()
     assert [*mirror().compose().inputs.open] == ["wavelength", "tilt"]
-    with pytest.raises(op.ParameterError):
+    with pytest.raises(op.errors.ParameterError):
         mirror().trace(wavelength=5e-7, **{metal()[0].name: 1.0})
 
 
@@ -199,7 +199,7 @@ def test_equal_curves_copies_and_sums_are_equal_values_and_sums_those_of_the_num
     ],
 )
 def test_nanometres_that_are_taken_for_metres_are_refused(make):
-    with pytest.raises(op.ValueFault) as fault:
+    with pytest.raises(op.errors.ValueFault) as fault:
         make(span=(400, 700), name="x")
     assert str(fault.value) == (
         "the least wavelength of the span of x is 400 metres, which is no wavelength of light; "
@@ -213,7 +213,7 @@ def path_of(material):
 
 
 def told(path, **given):
-    with pytest.raises(op.ParameterError) as fault:
+    with pytest.raises(op.errors.ParameterError) as fault:
         path.trace(wavelength="500 nm", **given)
     return str(fault.value)
 
@@ -231,7 +231,7 @@ def test_tables_have_their_unit_from_texts_or_beside_them():
     assert in_degrees == op.tabulated(TWO, np.radians([95.0, 100.0]))
     assert in_degrees != op.tabulated(TWO, ["95 deg", "101 deg"])
     for place in (op.Rotator, op.Retarder):
-        with pytest.warns(op.AngleWarning, match="angle|retardance is a plain number"):
+        with pytest.warns(op.errors.AngleWarning, match="angle|retardance is a plain number"):
             place(op.tabulated(TWO, [95, 78]))
         for unit in ("deg", "rad"):
             place(op.tabulated(TWO, [95, 78], unit))
@@ -273,12 +273,28 @@ DRUDE = {"strengths": [1.0], "poles": [0.1]}
     [
         *((op.OptipathError, partial(op.tabulated, **TABLE | own), s) for own, s in OF_TABLES),
         *((op.OptipathError, partial(op.drude_rotation, **DRUDE | o), s) for o, s in OF_ROTATIONS),
-        (op.ValueFault, lambda: op.Rotator(ROTATION), "is in deg/mm, but Rotator angle takes"),
-        (op.ValueFault, lambda: op.Interface((GLASS.n, GLASS.n), 0.3), "as n of glass, n of glass"),
-        (op.ParameterError, lambda: LINE - line(1, 2, op.Wavelength("x")), "from two wavelengths"),
-        (op.ParameterError, lambda: LINE + ROTATION, "add up what is of one kind"),
-        (op.ParameterError, lambda: LINE + LATE, "at no common wavelength"),
-        (op.ParameterError, lambda: GLASS.n**2, r"n of glass cannot be used so.* 2 \* n of glass"),
+        (
+            op.errors.ValueFault,
+            lambda: op.Rotator(ROTATION),
+            "is in deg/mm, but Rotator angle takes",
+        ),
+        (
+            op.errors.ValueFault,
+            lambda: op.Interface((GLASS.n, GLASS.n), 0.3),
+            "as n of glass, n of glass",
+        ),
+        (
+            op.errors.ParameterError,
+            lambda: LINE - line(1, 2, op.Wavelength("x")),
+            "from two wavelengths",
+        ),
+        (op.errors.ParameterError, lambda: LINE + ROTATION, "add up what is of one kind"),
+        (op.errors.ParameterError, lambda: LINE + LATE, "at no common wavelength"),
+        (
+            op.errors.ParameterError,
+            lambda: GLASS.n**2,
+            r"n of glass cannot be used so.* 2 \* n of glass",
+        ),
     ],
 )
 def test_what_makes_no_value_by_wavelength_is_named(kind, call, sentence):
@@ -291,14 +307,18 @@ def test_coefficients_and_wavelengths_that_do_not_broadcast_are_named():
     given = {"A": [1.5, 1.6, 1.7], "wavelength": [5e-7, 6e-7]}
     for bound in ((), ("A",), ("wavelength",)):
         path = path_of(glass).bind(**{name: given[name] for name in bound})
-        with pytest.raises(op.ParameterError, match="arrays do not broadcast together") as caught:
+        with pytest.raises(
+            op.errors.ParameterError, match="arrays do not broadcast together"
+        ) as caught:
             path.trace(**{name: value for name, value in given.items() if name not in bound})
         assert "A (3,)" in str(caught.value)
         assert "wavelength (2,)" in str(caught.value)
     several = replace(P("A", default=1.5, bound=True), default=np.array([1.5, 1.6, 1.7]))
-    with pytest.raises(op.ShapeError, match="arrays do not broadcast together"):
+    with pytest.raises(op.errors.ShapeError, match="arrays do not broadcast together"):
         op.Material.cauchy([several, 0.004]).at([5e-7, 6e-7])
-    with pytest.raises(op.ParameterError, match="wavelength has 40 axes, and a batch has 30 at m"):
+    with pytest.raises(
+        op.errors.ParameterError, match="wavelength has 40 axes, and a batch has 30 at m"
+    ):
         path_of(GLASS).trace(wavelength=np.full((1,) * 40, 5e-7))
 
 
@@ -363,9 +383,9 @@ def test_a_formula_below_0_names_its_coefficients_and_a_complex_one_is_refused_b
     wanted = "parameter 'a' (at interface.index.n.coefficients[0]) is complex; give a real"
     for a in (np.array([1.5 + 1j, 1.5]), "1.5+1j"):
         assert told(path, a=a).startswith(wanted)
-        with pytest.raises(op.ParameterError, match="is complex; give a real coefficient"):
+        with pytest.raises(op.errors.ParameterError, match="is complex; give a real coefficient"):
             path.bind(a=a, wavelength="500 nm")
-    with pytest.raises(op.ValueFault) as fault:
+    with pytest.raises(op.errors.ValueFault) as fault:
         op.Material.drude_lorentz(P("wp", default=1j), P("g", default=-1.0))
     wanted = "'wp' (at plasma of a Drude-Lorentz model) is complex; give a real coefficient of 0 or"
     assert fault.value.faults[0] == f"parameter {wanted} more"

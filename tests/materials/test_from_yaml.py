@@ -39,7 +39,7 @@ def written(tmp_path):
 
 
 def refusal(file, **given):
-    with pytest.raises(op.MaterialError) as caught:
+    with pytest.raises(op.errors.MaterialError) as caught:
         op.Material.from_yaml(file, **given)
     return str(caught.value)
 
@@ -70,7 +70,9 @@ def test_tables_and_formulas_are_one_material_where_all_are_known(written):
     assert op.Material.from_yaml(written(of_data("tabulated nk", *lines))) == label
     file = written(TABLE)
     assert repr(op.Material.from_yaml(file)) == "Material 'mine.yml', 400 nm .. 600 nm"
-    with pytest.raises(op.ValueFault, match=r"within 400 nm .. 600 nm, for which mine.yml is"):
+    with pytest.raises(
+        op.errors.ValueFault, match=r"within 400 nm .. 600 nm, for which mine.yml is"
+    ):
         op.Material.from_yaml(file, wavelength="700 nm")
     text = of_data("tabulated n", "0.4 1.6", "0.6 1.5")
     assert "mine.yml has no k" in refusal(written(text))
@@ -118,12 +120,12 @@ def test_all_faults_of_a_file_are_told_at_once_and_numbers_where_they_are(writte
     text = "\n".join([*lists, "REFERENCES: *a39", "DATA:", " - type: *a39", " - data: *a39"])
     assert "2 faults" in refusal(written(text))
     text = of_data("x") + of_data("tabulated nk", "0.4 1", "b 1 0").removeprefix("DATA:\n")
-    with pytest.raises(op.MaterialError) as caught:
+    with pytest.raises(op.errors.MaterialError) as caught:
         op.Material.from_yaml(written(text))
     assert len(caught.value.faults) == 3
     file = written(TABLE.replace("1.4 0.4", "1.4 -0.4"))
     assert op.Material.from_yaml(file, wavelength="450 nm").k > 0.0
-    with pytest.raises(op.ValueFault, match=r"k is -0\.4"):
+    with pytest.raises(op.errors.ValueFault, match=r"k is -0\.4"):
         op.Material.from_yaml(file, wavelength="600 nm")
     path = op.Source(1) >> op.Interface(op.Material.from_yaml(file), 0.1) >> op.Detector()
     with pytest.raises(op.OptipathError, match=r"k of mine.yml at 600 nm is -0.4"):

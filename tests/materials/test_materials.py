@@ -157,11 +157,11 @@ REFUSED = [
 
 @rows("ask, words", REFUSED)
 def test_what_cannot_be_is_told_in_words_all_at_once(ask, words):
-    with pytest.raises((op.ValueFault, op.ParameterError)) as fault:
+    with pytest.raises((op.errors.ValueFault, op.errors.ParameterError)) as fault:
         ask()
     for part in words.split(" | "):
         assert part in str(fault.value)
-    with pytest.raises(op.ValueFault) as fault:
+    with pytest.raises(op.errors.ValueFault) as fault:
         drude(-9, -0.1, -1, background="a", span="here")
     assert len(fault.value.faults) == 5
 

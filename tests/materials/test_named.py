@@ -209,7 +209,9 @@ def test_a_package_without_a_database_is_told(forgotten, tmp_path):
 
     forgotten.setattr(installed, "find_spec", lambda _: Found)
     forgotten.setattr(installed, "version", lambda _: "1.1.0")
-    with pytest.raises(op.MaterialError, match=r'1.1.0 brings no database; pip install "refr.*>=1'):
+    with pytest.raises(
+        op.errors.MaterialError, match=r'1.1.0 brings no database; pip install "refr.*>=1'
+    ):
         gold()
 
 
@@ -227,7 +229,7 @@ def test_materials_are_known_as_far_as_their_pages_and_runs_up_to_microwaves():
     expected = 100.0 * np.abs((index - 1) / (index + 1)) ** 2
     np.testing.assert_allclose(light.intensity, expected, rtol=1e-12)
     for given, told in [(0.633, "'0.633 um'"), (633, "'633 nm'"), ("1 m", "no wavelength")]:
-        with pytest.raises(op.ParameterError, match=told):
+        with pytest.raises(op.errors.ParameterError, match=told):
             path.trace(wavelength=given)
 
 

@@ -33,9 +33,11 @@ def test_samples_are_joined_by_lines_and_powers_spread_over_bins_or_counted_once
     lamp = sampled([4e-7, 5e-7], [1.0, 3.0])
     assert sampled([5e-7, 4e-7], [3.0, 1.0]) == lamp
     np.testing.assert_array_equal(lamp.values, [1.0, 3.0])
-    with pytest.raises(op.ValueFault, match=r"has no powers; ask for those of spectrum.rebin"):
+    with pytest.raises(
+        op.errors.ValueFault, match=r"has no powers; ask for those of spectrum.rebin"
+    ):
         lamp.powers  # noqa: B018
-    with pytest.raises(op.ValueFault, match=r"has no values; .* spectrum.resample"):
+    with pytest.raises(op.errors.ValueFault, match=r"has no values; .* spectrum.resample"):
         lamp.rebin([4e-7, 5e-7]).values  # noqa: B018
     lamp = histogram(["400 nm", "500 nm", "700 nm"], [10.0, 40.0])
     found = lamp.at(["400 nm", "499 nm", "500 nm", "700 nm"])
@@ -136,7 +138,7 @@ def test_a_line_keeps_its_power_on_any_grid(place, grid):
 
 def test_spectra_beyond_their_range_are_an_error_or_0_where_that_is_said():
     for make, known in ((sampled, [1.0, 3.0]), (histogram, [1.0])):
-        with pytest.raises(op.ValueFault, match=r"400 nm .. 500 nm.*give outside=0.0"):
+        with pytest.raises(op.errors.ValueFault, match=r"400 nm .. 500 nm.*give outside=0.0"):
             make(PAIR, known).at("550 nm")
         np.testing.assert_array_equal(make(PAIR, known, outside=0.0).at([3e-7, 6e-7]), 0.0)
     for name in ("A", "D65", "E"):
@@ -154,11 +156,11 @@ def test_a_file_has_samples_by_the_name_of_their_column(tmp_path):
     file.write_text("# measured\nwavelength (nm); Power; noise\n400; 1; 0\n600; 3; 0\n")
     lamp = op.Spectrum.from_csv(file)
     assert lamp == sampled(["400 nm", "600 nm"], [1.0, 3.0], name="lamp")
-    with pytest.raises(op.ValueFault, match=r"lamp.csv.*'?respons"):
+    with pytest.raises(op.errors.ValueFault, match=r"lamp.csv.*'?respons"):
         op.Spectrum.from_csv(file, "response")
     file.write_text("wavelength (nm), power\n400, -1\n500, 1")
     told = r"value of lamp is -1 at 0; give numbers of 0 or more"
-    with pytest.raises(op.ValueFault, match=told):
+    with pytest.raises(op.errors.ValueFault, match=told):
         op.Spectrum.from_csv(file)
 
 
@@ -255,7 +257,7 @@ REFUSED = [
 
 @rows("make, sentence", REFUSED)
 def test_what_is_no_spectrum_and_what_does_not_fit_one_is_refused_with_the_cure(make, sentence):
-    with pytest.raises((op.ValueFault, op.UnitError), match=sentence):
+    with pytest.raises((op.errors.ValueFault, op.errors.UnitError), match=sentence):
         make()
 
 
@@ -330,7 +332,7 @@ def test_what_goes_on_beyond_samples_is_computed_with_and_products_have_the_samp
     first = op.Spectrum(THREE, [0.5, 1.0, 0.2], outside="linear")
     # It is 0 from 625 nm on.
     assert first.power("600 nm", "900 nm") == pytest.approx(0.5 * 25 * 0.2, rel=1e-9)
-    with pytest.raises(op.ValueFault, match="does not end"):
+    with pytest.raises(op.errors.ValueFault, match="does not end"):
         first.power()
     far = np.array([300e-9, 700e-9, 900e-9])
     second = op.Spectrum(THREE, [1.0, 1.0, 1.5], outside="linear")

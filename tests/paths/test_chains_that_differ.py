@@ -236,7 +236,7 @@ def test_masked_light_has_no_figures_in_batches_plans_and_streams():
     points[3, 1] = np.nan
     parts = [light.intensity for _, light in plan.stream(2, points=points)]
     np.testing.assert_array_equal(np.isnan(np.concatenate(parts)), np.arange(5) == 3)
-    with pytest.raises(op.ParameterError, match="finite"):
+    with pytest.raises(op.errors.ParameterError, match="finite"):
         refusing.run(points=np.full((3, 3), np.nan))
     given = {"ids": [[0, 0], [1, 0]], "events": "TT", "bad": "mask"}
     light = op.path_from_vertices(DOWN, [GLASS, GOLD], **given).trace()
@@ -248,7 +248,7 @@ def test_normals_that_contradict_a_chain_mask_it_and_those_behind_its_end_are_no
     normals = np.array([[[0.0, 1, 1]], [[0.0, 1, 0]], [[0.0, -2, -2]]])
     light = op.path_from_vertices(points, [GLASS], normals, bad="mask").trace()
     np.testing.assert_array_equal(np.isnan(light.intensity), [False, True, False])
-    with pytest.raises(op.PathError, match="vertex 1 of chain 1 is off the bisector"):
+    with pytest.raises(op.errors.PathError, match="vertex 1 of chain 1 is off the bisector"):
         op.path_from_vertices(points, [GLASS], normals)
     points = np.array([DOWN, DOWN])
     points[1, 2:] = [[0, 0, 5], [np.nan] * 3]
@@ -256,7 +256,9 @@ def test_normals_that_contradict_a_chain_mask_it_and_those_behind_its_end_are_no
     path = op.path_from_vertices(points, [GLASS, 1.0], normals, events=["TT", "R"])
     np.testing.assert_allclose(path.trace().intensity, [0.96**2, 0.04], rtol=1e-14)
     normals[0][1] = [0, 1, 1]
-    with pytest.raises(op.PathError, match="vertex 2 of chain 0 is off the one that refracts"):
+    with pytest.raises(
+        op.errors.PathError, match="vertex 2 of chain 0 is off the one that refracts"
+    ):
         op.path_from_vertices(points, [GLASS, 1.0], normals, events=["TT", "R"])
 
 
@@ -271,11 +273,11 @@ def test_normals_that_contradict_a_chain_mask_it_and_those_behind_its_end_are_no
 )
 def test_the_first_chain_that_cannot_be_is_named_with_its_cure(points, events, ids, message):
     given = {"materials": [GLASS, GOLD if ids else 1.0], "events": events, "ids": ids}
-    with pytest.raises(op.PathError, match=message):
+    with pytest.raises(op.errors.PathError, match=message):
         op.path_from_vertices(points, **given)
     op.path_from_vertices(points, **given, bad="mask")
     if "absorbs" not in message:
-        with pytest.raises(op.ParameterError, match=message):
+        with pytest.raises(op.errors.ParameterError, match=message):
             op.path_from_vertices(op.Parameter("p"), **given).trace(p=points)
 
 
@@ -374,7 +376,7 @@ def chosen(second):
 )
 def test_what_is_wrong_is_told_in_words(given, messages):
     arguments, others = given
-    with pytest.raises(op.PathError) as error:
+    with pytest.raises(op.errors.PathError) as error:
         op.path_from_vertices(*arguments, **others)
     for message in messages:
         assert message in str(error.value)
@@ -406,30 +408,32 @@ def test_what_is_wrong_is_told_in_words(given, messages):
 )
 def test_one_thing_that_is_wrong_with_a_refraction_is_told_once(given, message):
     arguments, others = given
-    with pytest.raises(op.PathError, match=message) as error:
+    with pytest.raises(op.errors.PathError, match=message) as error:
         op.path_from_vertices(*arguments, **others)
     assert len(error.value.faults) == 1
 
 
 def test_points_that_may_be_those_of_a_refraction_are_asked_about_for_whole_chains():
     message = "by 16.8745 deg at vertex 1, .* n = 1 into n = 1.5; say"
-    with pytest.raises(op.PathError, match=message):
+    with pytest.raises(op.errors.PathError, match=message):
         op.path_from_vertices(INTO_GLASS, [1.5])
     for event, least, most in (("R", 0.0, 0.5), ("T", 0.9, 1.0)):
         path = op.path_from_vertices(INTO_GLASS, [1.5], events=event)
         assert least < path.trace().intensity < most
     # Defaults of parameters are known enough.
     points, n = op.Parameter("points", default=INTO_GLASS), op.Parameter("n", default=1.5)
-    with pytest.raises(op.PathError, match="say which"):
+    with pytest.raises(op.errors.PathError, match="say which"):
         op.path_from_vertices(points, [n])
     slab = np.array([[0, -1, 1], [0, 0, 0], [0, 1, -np.sqrt(3.5)], [0, 2, -np.sqrt(3.5) - 1]])
-    with pytest.raises(op.PathError, match=r"events='RR' where .* events='TT' where it goes"):
+    with pytest.raises(
+        op.errors.PathError, match=r"events='RR' where .* events='TT' where it goes"
+    ):
         op.path_from_vertices(slab, [1.5, 1.0])
     op.path_from_vertices(slab, [1.5, 1.0], events="TT")
     through = [[0.0, 0, 2], [0, 0.1, 1], [0, 0.1, 0], [0, 5, 1]]
     points = np.array([through, through])
     points[0, 3] = np.nan
-    with pytest.raises(op.PathError, match="events='RR' where it is reflected"):
+    with pytest.raises(op.errors.PathError, match="events='RR' where it is reflected"):
         op.path_from_vertices(points, [1.5, 1.5], lengths=[1, 2])
     op.path_from_vertices(points, [1.5, 1.5], lengths=[1, 2], events="RR")
 
@@ -456,17 +460,17 @@ def test_nothing_is_asked_where_there_is_one_reading(points, materials, others):
 @rows("batch, chain, told", [((7,), (5,), "chain 5"), ((2, 4), (1, 2), r"chain \(1, 2\)")])
 def test_the_one_chain_normal_or_coordinate_that_is_wrong_is_named(batch, chain, told):
     tilted = [0.0, np.sin(np.radians(46.0)), np.cos(np.radians(46.0))]
-    with pytest.raises(op.PathError, match=r"vertex 1 is off the bisector .* by 1 deg"):
+    with pytest.raises(op.errors.PathError, match=r"vertex 1 is off the bisector .* by 1 deg"):
         op.path_from_vertices(CORNER, [1.5], [tilted])
     # Of faulty vertices, no angle.
-    with pytest.raises(op.PathError, match=r"(?s)^(?!.*off the bisector)"):
+    with pytest.raises(op.errors.PathError, match=r"(?s)^(?!.*off the bisector)"):
         op.path_from_vertices(np.array(CORNER) * np.nan, [1.5], [[0, 1, 0]])
     points = random_chains(18, 3, (10_000,))
     points[7777, 3, 2] = np.nan
-    with pytest.raises(op.PathError, match=r"is nan at \(7777, 3, 2\)"):
+    with pytest.raises(op.errors.PathError, match=r"is nan at \(7777, 3, 2\)"):
         op.path_from_vertices(points, MATERIALS[:3])
     plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:3]).compose()
-    with pytest.raises(op.ParameterError, match=r"'points' is nan at \(7777, 3, 2\)"):
+    with pytest.raises(op.errors.ParameterError, match=r"'points' is nan at \(7777, 3, 2\)"):
         plan.run(points=points)
     points = np.broadcast_to(np.array(CORNER), (*batch, 3, 3)).copy()
     normals = np.broadcast_to([[0.0, 1.0, 1.0]], (*batch, 1, 3)).copy()
@@ -477,10 +481,12 @@ def test_the_one_chain_normal_or_coordinate_that_is_wrong_is_named(batch, chain,
     ):
         faulty = points.copy()
         faulty[(*chain, 2)] = wrong
-        with pytest.raises(op.PathError, match=message):
+        with pytest.raises(op.errors.PathError, match=message):
             op.path_from_vertices(faulty, [1.5], normals)
     normals[chain] = [[0.0, 1.0, 1.001]]
-    with pytest.raises(op.PathError, match=rf"the normal of vertex 1 of {told} is off .* 0.0286 d"):
+    with pytest.raises(
+        op.errors.PathError, match=rf"the normal of vertex 1 of {told} is off .* 0.0286 d"
+    ):
         op.path_from_vertices(points, [1.5], normals)
 
 
@@ -496,7 +502,7 @@ def test_normals_next_to_the_tolerance_are_told_apart_exactly(seed):
     op.path_from_vertices(points, MATERIALS[:3], bisectors + 0.99e-6 * size * across)
     off = np.zeros((5000, 3, 1))
     off[4321, 1] = 1.01e-6
-    with pytest.raises(op.PathError, match="vertex 2 of chain 4321 is off"):
+    with pytest.raises(op.errors.PathError, match="vertex 2 of chain 4321 is off"):
         op.path_from_vertices(points, MATERIALS[:3], bisectors + off * size * across)
 
 
@@ -512,11 +518,11 @@ def test_points_given_later_and_what_no_surface_refracts_are_refused_by_every_en
         for scale in (1e-160, 1e-75, 1e75, 1e155):
             scaled = points.copy()
             scaled[-1] *= scale
-            with pytest.raises(op.PathError, match=APART):
+            with pytest.raises(op.errors.PathError, match=APART):
                 op.path_from_vertices(scaled, [1.5])
             wrong.append((scaled, APART))
         for given, message in wrong:
-            with pytest.raises(op.ParameterError, match=message):
+            with pytest.raises(op.errors.ParameterError, match=message):
                 plan.run(points=given)
     path = op.path_from_vertices(op.Parameter("points"), [N], events="T")
     plan = op.Composer(engine=engine).compose(path)
@@ -525,8 +531,8 @@ def test_points_given_later_and_what_no_surface_refracts_are_refused_by_every_en
         points = np.array([INTO_GLASS] * count)
         assert np.all(plan.run(points=points, n=1.5).intensity > 0.9)
         points[-1] = ASIDE
-        with pytest.raises(op.ParameterError, match=message) as error:
+        with pytest.raises(op.errors.ParameterError, match=message) as error:
             plan.run(points=points, n=1.5)
         assert count == 1 or f"of {count} paths" in str(error.value)
-    with pytest.raises(op.ParameterError, match="lets it go straight on"):
+    with pytest.raises(op.errors.ParameterError, match="lets it go straight on"):
         plan.run(points=points[0], n=1.0)

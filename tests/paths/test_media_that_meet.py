@@ -40,7 +40,7 @@ LOSSLESS = [op.Medium(0.1), op.Attenuator(1.0), op.Rotator(0.0), op.Combiner(), 
 class Window(op.Element):
     """An element of one's own that light goes straight through."""
 
-    loss: op.Fraction = 0.1
+    loss: op.fields.Fraction = 0.1
 
     @staticmethod
     def mueller_rows(_, loss):
@@ -83,7 +83,7 @@ def stack_of(*boundaries, loops="sum"):
 
 
 def faults_of(path, **parameters):
-    with pytest.raises(op.ParameterError if parameters else op.PathError) as error:
+    with pytest.raises(op.errors.ParameterError if parameters else op.errors.PathError) as error:
         path.trace(**parameters)
     return error.value.faults
 
@@ -229,7 +229,7 @@ def test_no_azimuth_in_a_loop_switches_the_look_at_angles_off(azimuth):
     # A turn of a thousandth is none without a loop, too.
     hardly = faces(GLASS, op.Interface(1.0, THETA, outside=1.5, azimuth=1e-4))
     for path in (slab(GLASS, WRONG, azimuth=azimuth), slab(GLASS, turned), filtered, hardly):
-        with pytest.raises(op.PathError, match=SINES):
+        with pytest.raises(op.errors.PathError, match=SINES):
             path.trace()
 
 
@@ -355,7 +355,7 @@ def test_every_route_to_a_face_is_looked_at(turned_first):
     links = "lamp -> front, front.transmitted -> half, half.transmitted -> a, a -> both, b -> both"
     path = wired({**ends, "back": WRONG, "T": EYE}, f"{links}, both -> back, back.transmitted -> T")
     path.connect("half.transmitted", "b.in", tap=True)
-    with pytest.raises(op.PathError, match=SINES):
+    with pytest.raises(op.errors.PathError, match=SINES):
         path.check()
 
 
@@ -369,7 +369,7 @@ def test_beyond_the_critical_angle_the_one_behind_is_a_right_angle():
         assert np.all(light.intensity[np.sin(t) > 1 / 1.5] == pytest.approx(0.0, abs=1e-12))
         assert light.intensity[0] > 0.9
         # A right angle for light that does get there is wrong.
-        with pytest.raises(op.ParameterError, match=SINES):
+        with pytest.raises(op.errors.ParameterError, match=SINES):
             slab(gap, beyond, to=to).trace(t=t, u=np.pi / 2)
     outside = op.Interface(1.0, np.pi / 2, outside=1.5, incidence_in=1.0)
     assert "n sin(incidence)" in fault_of(faces(op.Interface(1.5, "60 deg", outside=1.5), outside))
@@ -543,7 +543,7 @@ def test_values_are_looked_at_whenever_they_are_given_and_give_nan_where_jax_tra
         ({"n": np.full(5, 1.5), "m": [1.5, 1.5, 1.5, 1.6, 1.5]}, "but its outside is"),
         ({"n": np.nan}, "parameter 'n' is nan"),
     ):
-        with pytest.raises(op.ParameterError, match=told) as error:
+        with pytest.raises(op.errors.ParameterError, match=told) as error:
             path.trace(**good | wrong)
         assert len(error.value.faults) == 1
     jax = pytest.importorskip("jax")
@@ -565,10 +565,10 @@ def test_every_engine_refuses_media_that_do_not_meet(engine):
     theta = np.linspace(0.0, 1.5, 50)
     phi = np.arcsin(np.sin(theta) / n)
     assert plan.run(n=n, m=n, theta=theta, phi=phi).stokes.shape == (50, 4)
-    with pytest.raises(op.ParameterError, match="is lit from n"):
+    with pytest.raises(op.errors.ParameterError, match="is lit from n"):
         plan.run(n=n, m=n[::-1], theta=theta, phi=phi)
     for question in (plan.run_all, plan.mueller, plan.paths):
-        with pytest.raises(op.ParameterError, match="n sin"):
+        with pytest.raises(op.errors.ParameterError, match="n sin"):
             question(n=1.5, m=1.5, theta=0.3, phi=0.3)
 
 

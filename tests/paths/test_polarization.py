@@ -17,7 +17,7 @@ from tables import rows
 from wired import wired
 
 # Of films, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.errors.CoherenceWarning")
 
 ANGLES = np.radians([50.0, 56.0, 60.0, 65.0])
 TINTED = {"lengths": [0.2], "wavelength": 5e-7}
@@ -181,7 +181,7 @@ def test_batches_give_what_single_paths_give_and_values_that_jax_traces_are_refu
         for name in ("exact", "scalar", "difference"):
             assert getattr(found, name)[place] == getattr(one, name)
     jax = pytest.importorskip("jax")
-    with pytest.raises(op.ParameterError, match="not of values that JAX traces"):
+    with pytest.raises(op.errors.ParameterError, match="not of values that JAX traces"):
         jax.jit(lambda a: op.polarization(path, a=a).difference)(ANGLES)
 
 
@@ -226,7 +226,7 @@ def test_a_stack_is_taken_as_a_whole_and_a_detector_by_its_name():
         ((path, "bb"), "there are: a, b"),
         ((op.load_preset("glass-slab"), "transmited"), "detector 'transmited' does not exist"),
     ):
-        with pytest.raises(op.ParameterError, match=told):
+        with pytest.raises(op.errors.ParameterError, match=told):
             op.polarization(*asked)
 
 

@@ -19,7 +19,7 @@ CORNER = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 2.2, 2], [2.5, 2.0, 2.2]])
 class Faraday(op.Element):
     """A rotation that changes its sign, written as a user would."""
 
-    angle: op.Angle
+    angle: op.fields.Angle
     mirrored = ("angle",)
 
     @staticmethod
@@ -42,7 +42,7 @@ def turns_of(path):
 
 
 @pytest.mark.parametrize("count", [25, slow(1000)])
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 def test_random_graphs_obey_the_theorem_of_reciprocity_and_stay_what_they_were(count):
     refused = 0
     for seed in range(1, count + 1):
@@ -51,7 +51,7 @@ def test_random_graphs_obey_the_theorem_of_reciprocity_and_stay_what_they_were(c
         before = path.to_toml()
         try:
             pairs = list(matrices_there_and_back(path, drawn.values))
-        except (op.PathError, op.ParameterError) as error:
+        except (op.errors.PathError, op.errors.ParameterError) as error:
             # Which faces are parallel cannot be said of every wedge; that is told.
             assert re.search(WEDGES, str(error))  # noqa: PT017
             refused += 1
@@ -232,7 +232,7 @@ def placed(*, azimuth=0.0):
 
 class Unsaid(op.Element):
     mueller_rows = Faraday.__dict__["mueller_rows"]
-    angle: op.Angle = 0.0
+    angle: op.fields.Angle = 0.0
 
 
 class Fork(op.Element):
@@ -251,7 +251,7 @@ def test_what_cannot_go_back_is_told_at_once_with_cures_that_do():
     links = "lamp -> mine, mine -> fork, fork.left -> both, fork.right -> both, both -> eye"
     path = wired(ends, f"{links}, second -> eye")
     path.connect("mine", "tap", tap=True)
-    with pytest.raises(op.PathError) as caught:
+    with pytest.raises(op.errors.PathError) as caught:
         path.reversed({"ey": op.Source(), "tap": op.Detector()})
     told = caught.value.faults
     for sentence in (
@@ -302,7 +302,7 @@ def split():
     ],
 )
 def test_light_that_is_no_source_and_what_ones_own_class_gives_are_told(path, source, sentence):
-    with pytest.raises(op.PathError, match=sentence):
+    with pytest.raises(op.errors.PathError, match=sentence):
         path.reversed(source)
     if sentence == NO_SOURCE:
         assert path.reversed({}) == path.reversed()
@@ -388,7 +388,9 @@ def test_nodes_are_named_a_folding_mirror_is_met_again_and_choices_are_refused()
     np.testing.assert_allclose((path >> op.Detector()).trace().stokes, expected, atol=1e-15)
     piece = op.Polarizer() >> op.Retarder(1.0) >> op.Rotator(0.1)
     piece.offer("place", "retarder", {"first": "polarizer.out"})
-    with pytest.raises(op.PathError, match="choice 'place' moves a node on the way there alone"):
+    with pytest.raises(
+        op.errors.PathError, match="choice 'place' moves a node on the way there alone"
+    ):
         op.there_and_back(piece, op.Mirror())
 
 
@@ -410,5 +412,5 @@ def test_nodes_are_named_a_folding_mirror_is_met_again_and_choices_are_refused()
     ],
 )
 def test_what_does_not_go_there_and_back_is_refused(elements, sentence):
-    with pytest.raises(op.PathError, match=sentence):
+    with pytest.raises(op.errors.PathError, match=sentence):
         op.there_and_back(*elements)

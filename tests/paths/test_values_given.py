@@ -64,7 +64,7 @@ def fault(action, *given, **values):
     ],
 )
 def test_what_is_given_by_a_wrong_name_or_none_is_told_where_it_belongs(call, sentence):
-    with pytest.raises(op.ParameterError) as told:
+    with pytest.raises(op.errors.ParameterError) as told:
         call()
     assert sentence in str(told.value)
     if sentence.endswith(("k1", "give one")):
@@ -77,7 +77,9 @@ def test_detectors_nodes_and_places_are_told_by_their_names():
     path = wired({**ends, "r": op.Detector(), "t": op.Detector()}, links)
     for call, other in ((path.trace, "trace_all"), (path.compose().run, "run_all")):
         for values in ({}, {"power": 3.0}):
-            with pytest.raises(op.ParameterError, match=rf"2 detectors .*; use {other}\(\)$"):
+            with pytest.raises(
+                op.errors.ParameterError, match=rf"2 detectors .*; use {other}\(\)$"
+            ):
                 call(**values)
     assert {*path.trace_all()} == {"r", "t"}
     path = npgr026()
@@ -213,7 +215,7 @@ def test_the_usual_range_is_known_by_kind_default_cases_and_limits(find, expecte
     assert low < high
 
 
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 @rows("unit", ["", "nm", "1/um", "deg"])
 @rows("given", [{"default": 1e308}, {"minimum": 1e298}, {"default": 1.7e308}])
 def test_of_huge_values_the_range_has_ends_in_its_unit_as_well(unit, given):

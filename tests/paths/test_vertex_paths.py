@@ -226,7 +226,9 @@ def test_vertices_and_normals_may_come_in_batches_of_any_length_and_side():
     for vertex, word in ((1, "the one that refracts"), (2, "the bisector")):
         wrong = normals.copy()
         wrong[321, vertex - 1] += 1e-5 * points[0, 0]
-        with pytest.raises(op.PathError, match=rf"vertex {vertex} of chain 321 is off {word}"):
+        with pytest.raises(
+            op.errors.PathError, match=rf"vertex {vertex} of chain 321 is off {word}"
+        ):
             op.path_from_vertices(points, materials, wrong, events="TRTT")
 
 
@@ -304,7 +306,7 @@ def test_slopes_along_vertices_are_those_of_differences_and_frames_have_none(jax
         ends = [float(plan.run(points=points + sign * step).intensity) for sign in (1, -1)]
         assert float(slopes[at]) == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-8)
     path = op.path_from_vertices(op.Parameter("points"), [1.5])
-    with pytest.raises(op.FrameError, match="JAX traces"), quickly("jax"):
+    with pytest.raises(op.errors.FrameError, match="JAX traces"), quickly("jax"):
         jax.grad(lambda p: path.trace(points=p).frame.x[0])(jax.numpy.asarray(CORNER))
 
 

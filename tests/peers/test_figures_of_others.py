@@ -153,7 +153,7 @@ def test_a_reflection_is_made_of_the_amplitudes_of_the_software(name, setup, pre
 PORTS = ("reflected", "transmitted")
 
 
-@pytest.mark.filterwarnings("ignore::optipath.CoherenceWarning")  # Of films, on purpose.
+@pytest.mark.filterwarnings("ignore::optipath.errors.CoherenceWarning")  # Of films, on purpose.
 @rows("setup", STACKS["shares"])
 def test_a_stack_shares_light_out_as_that_of_tmm(setup):
     layers = [complex(*index) for index in setup["indices"]]

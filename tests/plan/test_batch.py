@@ -77,7 +77,7 @@ class Counting(op.Element):
     """Counts how many numbers it is asked for, which no engine can compile."""
 
     physical: ClassVar[bool] = False
-    angle: op.Angle
+    angle: op.fields.Angle
     asked = 0
 
     @staticmethod
@@ -143,7 +143,7 @@ def test_of_a_grid_a_value_out_of_range_is_refused_and_faint_light_keeps_its_sta
     plan = op.Composer(engine=engine).compose(PATH)
     delta, phi = rng.uniform(0, 1, (100, 1)), rng.uniform(0, 1, 100)
     delta[70] = 2.0
-    with pytest.raises(op.ParameterError, match=r"'delta' is 114\.592 deg at"):
+    with pytest.raises(op.errors.ParameterError, match=r"'delta' is 114\.592 deg at"):
         plan.run(delta=delta, phi=phi)
     dimmed = [op.Attenuator(op.Parameter(f"t{name}")) for name in "ab"]
     plan = op.Composer(engine=engine).compose(chain(dimmed, [1.0, 0.6, 0.0, 0.8]))

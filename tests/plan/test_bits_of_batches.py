@@ -86,7 +86,7 @@ def test_a_number_for_all_is_the_same_as_an_array_of_it(seed):
     repeated = {n: np.full(SEVERAL, v[1]) if n in fixed else v for n, v in values.items()}
     try:
         alone = one_by_one(path.compose(), repeated)
-    except op.ParameterError:
+    except op.errors.ParameterError:
         pytest.skip("no light can be there")
     for repeats in (1, 300):
         many = np.tile(np.arange(SEVERAL), repeats)
@@ -103,7 +103,7 @@ def test_a_grid_by_axes_has_the_paths_of_a_batch(seed):
     axes = {n: v[:, np.newaxis] if n in first else v for n, v in values.items()}
     try:
         lights = path.compose().run_all(**axes)
-    except op.ParameterError:
+    except op.errors.ParameterError:
         pytest.skip("no light can be at other places of the grid")
     for name, light in lights.items():
         cells = np.broadcast_to(light.stokes, (SEVERAL, SEVERAL, 4))
@@ -131,7 +131,7 @@ def test_chains_of_several_histories_are_the_same_alone_and_among_others():
 
 @rows("n", [ANGLES + 1.0, ANGLES + 1.0 + 0j, ANGLES + 1.0 + 1j * (TURNS > 0)])
 @rows("k", [0.0 * TURNS, np.maximum(np.sign(TURNS), 0.0)])
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 def test_a_medium_without_absorption_is_computed_as_its_neighbours_are(n, k):
     metal = op.Interface(op.Material(op.Parameter("m"), op.Parameter("k")), op.Parameter("t"))
     path = op.Source(1.0, [1.0, 0.3, 0.2, 0.1]) >> op.Interface(op.Parameter("n"), 0.4) >> metal
@@ -258,7 +258,7 @@ def test_random_paths_of_a_wavelength_are_the_same_alone_and_among_others(seed, 
     plan = path.compose()
     try:
         alone = run_by_run(plan, {**given, "wavelength": wavelengths(7)}, (7,))
-    except op.ParameterError:
+    except op.errors.ParameterError:
         pytest.skip("no light can be where it has been drawn")
     for count in (1, 300):
         lights = plan.run_all(**given, wavelength=np.tile(wavelengths(7), count))
@@ -277,7 +277,7 @@ def test_at_wavelengths_the_first_run_is_the_tenth_and_parts_of_a_stream_are_the
         assert np.array_equal(whole[part.where], part.light.stokes)
 
 
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 def test_no_absorption_faint_light_and_huge_angles_leave_their_neighbours_as_they_are():
     k = np.array([ABSORPTION.curve.evaluated(w)[0] for w in wavelengths(5)])
     assert set(k == 0.0) == {True, False}

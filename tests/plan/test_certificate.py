@@ -48,7 +48,7 @@ def assert_refused_in_every_way(path, **values):
         lambda: list(tolerated.stream(100, **values)),
         lambda: op.polarization(path, **values),
     ):
-        with pytest.raises(op.ParameterError, match=REFUSED):
+        with pytest.raises(op.errors.ParameterError, match=REFUSED):
             asked()
 
 
@@ -98,7 +98,7 @@ def test_every_matrix_with_a_negative_eigenvalue_is_refused_however_short_its_ro
     for matrix in unphysical_with_short_rows(np.random.default_rng(1), 100):
         if op.Mueller(matrix).is_physical(1e-4):
             continue
-        with pytest.raises(op.ParameterError, match=REFUSED):
+        with pytest.raises(op.errors.ParameterError, match=REFUSED):
             plan.certificate(M=matrix)
         plan.certificate(M=op.Mueller(matrix).nearest_physical().matrix)
 
@@ -204,7 +204,7 @@ def test_matrices_are_bounded_in_single_precision_and_refused_if_unphysical():
     matrices = np.broadcast_to(np.eye(4), (20_000, 4, 4)).copy()
     matrices[12_345] = NO_ROW_TOO_LONG
     plan = op.Composer(engine="numba").compose(chain([measured(op.Parameter("M"))]))
-    with pytest.raises(op.ParameterError, match=REFUSED):
+    with pytest.raises(op.errors.ParameterError, match=REFUSED):
         plan.certificate(M=matrices)
 
 
@@ -220,7 +220,7 @@ def test_certificates_of_traced_values_are_refused_in_words():
     path = chain([op.Interface(1.5, op.Parameter("a")), op.Polarizer(0.3)], reads="intensity")
     plan = path.compose()
     for what in (lambda a: plan.certificate(a=a).error, lambda a: plan.evaluations(a=a)):
-        with pytest.raises(op.ParameterError, match="not of values that JAX traces"):
+        with pytest.raises(op.errors.ParameterError, match="not of values that JAX traces"):
             jax.jit(what)(0.3)
 
 
@@ -312,7 +312,7 @@ def test_where_more_is_read_than_the_intensity_the_plan_stays_exact():
     path = two_panes(k=2.0, reads="stokes")
     plan = op.Composer(tolerance=0.5).compose(path)
     assert plan.model == "full"
-    with pytest.raises(op.ComposerError, match=r"not exact .* let all read 'intensity'"):
+    with pytest.raises(op.errors.ComposerError, match=r"not exact .* let all read 'intensity'"):
         op.Composer(model="scalar", tolerance=0.5).compose(path)
 
 
@@ -334,7 +334,7 @@ def test_faint_light_and_values_out_of_range_are_left_to_the_exact_model():
     light, exact = plan.run(t=[1e-200, 0.5]), path.trace(t=[1e-200, 0.5])
     np.testing.assert_allclose(light.log10_intensity, exact.log10_intensity, rtol=0, atol=0.3)
     plan = op.Composer(tolerance=0.1, dtype="float32").compose(two_panes())
-    with pytest.raises(op.ParameterError, match="'a'"):
+    with pytest.raises(op.errors.ParameterError, match="'a'"):
         plan.run(a=3.0, b=0.1, turn=0.0)
     for a in (0.2, np.linspace(0.0, 1.2, 3000)):
         assert plan.run(a=a, b=0.3, turn=0.3).stokes.dtype == np.float32

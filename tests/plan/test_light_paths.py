@@ -101,7 +101,7 @@ RING = joined(op.Attenuator(0.5), "reflected", "transmitted")
     ],
 )
 def test_what_cannot_be_listed_is_told(path, asked, message):
-    with pytest.raises(op.ParameterError, match=message):
+    with pytest.raises(op.errors.ParameterError, match=message):
         path.paths(**asked)
 
 
@@ -113,7 +113,7 @@ def test_light_that_goes_round_without_reflections_or_is_amplified_is_listed_up_
     np.testing.assert_allclose([way.intensity for way in ways], 0.75 ** np.arange(1, 6))
 
 
-@pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.LoopWarning")
 def test_a_search_ends_though_roundings_make_gains_of_reflections():
     # Of these faces, `amplitude` makes more light than there was, by the last digit.
     path, rng = op.load_preset("coated-metal"), np.random.default_rng(0)
@@ -132,5 +132,7 @@ def test_a_search_ends_though_no_light_ever_arrives():
     links = "lamp -> join, join -> a.in, a.reflected -> b.in, a.transmitted -> b.back, "
     links += "b.reflected -> join, b.transmitted -> c.in, c.reflected -> join, "
     path = wired(nodes, links + "c.transmitted -> crossed, crossed -> eye", loops="sum")
-    with pytest.raises(op.ParameterError, match="none arrives anywhere; give a smaller limit"):
+    with pytest.raises(
+        op.errors.ParameterError, match="none arrives anywhere; give a smaller limit"
+    ):
         path.paths(limit=3)

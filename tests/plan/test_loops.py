@@ -15,7 +15,7 @@ from optipath.lab.path_reference import exact_stokes
 from slabs import slab, stack
 from tables import rows, slow, slow_except
 
-pytestmark = pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.errors.LoopWarning")
 STATES = ([1.0, 0.6, 0.64, 0.48], [1.0, 0.0, 0.6, 0.8], [1.0, 0.2, -0.1, 0.3])
 WAVE_PLATES = PLATES["three wave plates"]
 
@@ -179,7 +179,7 @@ def test_lights_inside_and_outside_of_stacks_keep_every_digit_whatever_stands_be
 
 
 def assert_refused_with_its_gain(path, gain, rel):
-    with pytest.raises(op.ParameterError, match="never fades") as refused:
+    with pytest.raises(op.errors.ParameterError, match="never fades") as refused:
         path.trace_all()
     # Of several loops each has its own.
     told = re.findall(r"never fades: (\S+) of it comes back", str(refused.value))
@@ -203,7 +203,7 @@ def test_a_gain_is_judged_however_near_to_one_it_is_and_though_neither_x_nor_y_t
     for apart in 10.0 ** rng.uniform(-12, -1, 12):
         matrix = amplifying.drawn(rng, 1.0)
         matrix /= amplifying.radius(matrix)
-        with pytest.raises(op.ParameterError, match="never fades"):
+        with pytest.raises(op.errors.ParameterError, match="never fades"):
             amplifying.ring((1.0 + apart) * matrix).trace()
         assert_exact(amplifying.ring((1.0 - apart) * matrix), 1e-13)
     # Light at 45 deg is amplified by 1.2, that along x and along y dimmed.
@@ -233,7 +233,7 @@ def test_a_batch_that_gains_is_summed_by_every_engine(engine):
         found = lights.stokes[place]
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13 * expected[0])
     batch[7] *= 20.0
-    with pytest.raises(op.ParameterError, match="never fades"):
+    with pytest.raises(op.errors.ParameterError, match="never fades"):
         op.Composer(engine=engine).compose(amplifying.ring(batch)).run()
 
 

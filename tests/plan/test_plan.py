@@ -87,12 +87,14 @@ def test_several_detectors_are_read_by_name_and_what_is_not_read_is_nan():
     links = "lamp -> split, split.reflected -> a, split.transmitted -> split2, "
     links += "split2.reflected -> b, split2.transmitted -> c"
     path = wired({"lamp": op.Source(), **splitters, **ends}, links)
-    with pytest.raises(op.ParameterError, match=r"2 detectors \(a, c\); use trace_all"):
+    with pytest.raises(op.errors.ParameterError, match=r"2 detectors \(a, c\); use trace_all"):
         path.trace()
     found = {name: float(light.intensity) for name, light in path.trace_all().items()}
     assert found == {"a": 0.25, "b": 0.375, "c": 0.375}
     assert path.mueller("lamp", "b").matrix[0, 0] == 0.375
-    with pytest.raises(op.ParameterError, match="'lmap' does not exist; did you mean 'lamp'"):
+    with pytest.raises(
+        op.errors.ParameterError, match="'lmap' does not exist; did you mean 'lamp'"
+    ):
         path.mueller("lmap", "a")
 
 
@@ -100,7 +102,7 @@ def test_every_precision_is_carried_or_refused_where_longdouble_is_no_more_than_
     expected = NPGR026.trace(filter="diagonal").stokes
     for dtype, rtol in (("float32", 1e-4), ("longdouble", 1e-14)):
         if np.finfo(dtype).eps == np.finfo(np.float64).eps:
-            with pytest.raises(op.ComposerError, match="no more than float64"):
+            with pytest.raises(op.errors.ComposerError, match="no more than float64"):
                 op.Composer(dtype=dtype)
             continue
         found = op.Composer(dtype=dtype).compose(NPGR026).run(filter="diagonal").stokes
@@ -125,7 +127,7 @@ def test_every_precision_is_carried_or_refused_where_longdouble_is_no_more_than_
     ],
 )
 def test_values_that_cannot_be_are_refused_all_at_once(values, messages):
-    with pytest.raises(op.ParameterError) as error:
+    with pytest.raises(op.errors.ParameterError) as error:
         NPGR026.trace(**values)
     for message in messages:
         assert message in str(error.value)
@@ -133,7 +135,9 @@ def test_values_that_cannot_be_are_refused_all_at_once(values, messages):
 
 def test_light_that_is_not_finite_is_refused():
     plan = op.Composer(method="textbook").compose(NPGR026)
-    with pytest.raises(op.ParameterError, match="not finite in float64 by method 'textbook'"):
+    with pytest.raises(
+        op.errors.ParameterError, match="not finite in float64 by method 'textbook'"
+    ):
         plan.run(n1=1e200)
     assert NPGR026.trace(n1=1e200).intensity > 0.0
 
@@ -143,9 +147,9 @@ def test_a_parameter_must_be_given_once_and_may_have_any_name():
     assert path.trace(self=2.0).intensity == 2.0
     assert path.compose().run(self=3.0).intensity == 3.0
     assert path.bind(self=3.0).trace().intensity == 3.0
-    with pytest.raises(op.ParameterError, match="'self' has no value"):
+    with pytest.raises(op.errors.ParameterError, match="'self' has no value"):
         path.trace()
-    with pytest.raises(op.ParameterError, match="'delta' is bound to 48 deg"):
+    with pytest.raises(op.errors.ParameterError, match="'delta' is bound to 48 deg"):
         op.load_preset("npgr026", delta="48 deg").trace(delta=0.1)
 
 
@@ -270,7 +274,7 @@ def test_every_preset_is_explained_as_json_too(name, options):
 
 @rows("name", sorted(WITHOUT_JONES))
 def test_presets_without_a_jones_vector_are_refused_one(name):
-    with pytest.raises(op.ComposerError, match=r"no Jones .*composing='stokes'"):
+    with pytest.raises(op.errors.ComposerError, match=r"no Jones .*composing='stokes'"):
         op.Composer(composing="jones").compose(op.load_preset(name))
 
 

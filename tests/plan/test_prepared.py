@@ -113,7 +113,7 @@ def test_equal_paths_share_a_runner_and_those_that_differ_in_a_default_or_number
 class ReadsOutside(op.Element):
     """An element whose kernel reads what stands outside of it, as cells of a notebook do."""
 
-    angle: op.Angle = 0.0
+    angle: op.fields.Angle = 0.0
 
     @staticmethod
     def mueller_rows(xp, angle):
@@ -139,7 +139,7 @@ def test_what_must_agree_is_not_taken_from_a_path_of_equal_steps(turned_first):
         links = "lamp -> front, front.transmitted -> back, back.transmitted -> eye"
         path = wired(nodes, links)
         if parallel:
-            with pytest.raises(op.ParameterError, match="parallel=False"):
+            with pytest.raises(op.errors.ParameterError, match="parallel=False"):
                 path.trace(t=0.8)
         else:
             assert path.trace(t=0.8).S0 > 0.9
@@ -163,7 +163,7 @@ def test_world_frames_are_held_to_by_each_path_for_itself():
     for degrees in (45.0, 30.0, 45.0):
         path = refracted_in_space(degrees)
         assert path.trace(n=1.5, t=f"{degrees} deg").S0 > 0.9
-        with pytest.raises(op.ParameterError, match=r"turn light by .*, but by"):
+        with pytest.raises(op.errors.ParameterError, match=r"turn light by .*, but by"):
             path.trace(n=1.5, t="20 deg")
 
 
@@ -177,7 +177,7 @@ def dimmed():
 
 
 def faults(**given):
-    with pytest.raises(op.ParameterError) as raised:
+    with pytest.raises(op.errors.ParameterError) as raised:
         dimmed().trace(**given)
     return raised.value.faults
 
@@ -230,7 +230,7 @@ def test_what_cannot_be_is_refused_however_often_the_plan_has_run(given, words):
             {"t": 0.4, "d": MANY},
         ):
             plan.run(**right)
-        with pytest.raises(op.ParameterError, match=words):
+        with pytest.raises(op.errors.ParameterError, match=words):
             plan.run(**given)
 
 
@@ -269,5 +269,5 @@ def test_a_value_that_nothing_needs_is_held_to_its_range_however_often_the_plan_
         for name in "td":
             wrong = np.full(size, 0.5)
             wrong[(-1,) * len(size)] = bad
-            with pytest.raises(op.ParameterError, match=f"'{name}' .*; give a "):
+            with pytest.raises(op.errors.ParameterError, match=f"'{name}' .*; give a "):
                 ask(**{**given, name: wrong if size else float(wrong)})

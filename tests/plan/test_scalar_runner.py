@@ -77,7 +77,7 @@ def test_an_angle_that_looks_like_degrees_is_warned_of_by_later_runs_too():
     plan = chain([op.Retarder(VALUE, 0.3)], LIT).compose()
     for value in (0.1, 0.2, 0.3, 0.4, 0.5):
         plan.run(v=value)
-    with pytest.warns(op.AngleWarning, match="parameter 'v' is a plain number"):
+    with pytest.warns(op.errors.AngleWarning, match="parameter 'v' is a plain number"):
         plan.run(v=45.0)
 
 
@@ -132,7 +132,7 @@ def test_of_a_few_each_may_be_faint_named_by_words_and_out_of_range():
     path, preset = splitters(1), op.load_preset("npgr026")
     for _ in range(6):
         path.trace_all(r0=np.array([0.1, 0.2, 0.3]))
-        with pytest.raises(op.ParameterError, match=r"'r0' .* is 1\.5 at 1; give"):
+        with pytest.raises(op.errors.ParameterError, match=r"'r0' .* is 1\.5 at 1; give"):
             path.trace_all(r0=np.array([0.1, 1.5, 0.3]))
         light = splitters(1).trace_all(r0=np.array([0.5, 1e-200, 0.25]), t=1e-100)["side0"]
         expected = np.log10([0.5, 1.0, 0.25]) - [100.0, 300.0, 100.0]

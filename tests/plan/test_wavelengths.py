@@ -99,9 +99,9 @@ def panes(*spans):
 
 def test_wavelengths_and_curves_out_of_range_are_named():
     plan = plan_of()
-    with pytest.raises(op.ParameterError, match="for which ramps is known"):
+    with pytest.raises(op.errors.ParameterError, match="for which ramps is known"):
         plan.run(wavelength=2e-5, theta=0.3)
-    with pytest.raises(op.ParameterError, match="'wavelength' has no value"):
+    with pytest.raises(op.errors.ParameterError, match="'wavelength' has no value"):
         plan.run(theta=0.3)
     assert plan.run(wavelength=5e-7, theta=0.3).intensity > 0.0
     path = panes((3.5e-7, 9e-7), (1e-7, 9e-7), (4e-7, 8e-7))
@@ -135,7 +135,7 @@ def test_a_bare_wavelength_takes_over_default_range_and_help_of_others(several):
     found = path.parameters["wavelength"]
     assert (found.default, found.minimum, found.help) == (5e-7, 4.5e-7, "colour")
     assert path.trace() == path.trace(wavelength="500 nm") == painted(GREEN, GREEN).trace()
-    with pytest.raises(op.ParameterError, match="outside its range"):
+    with pytest.raises(op.errors.ParameterError, match="outside its range"):
         path.trace(wavelength="560 nm")
     free, bare = op.Parameter("wavelength", "500 nm"), painted(op.Wavelength())
     plated = op.Source() >> op.Waveplate("1 um", 0.01, free)
@@ -147,9 +147,9 @@ def test_a_bare_wavelength_takes_over_default_range_and_help_of_others(several):
 
 def test_wavelengths_that_say_different_things_are_refused():
     red = op.Wavelength(default="590 nm")
-    with pytest.raises(op.PathError, match=r"'wavelength' .* differs from that at"):
+    with pytest.raises(op.errors.PathError, match=r"'wavelength' .* differs from that at"):
         painted(GREEN, red).trace()
-    with pytest.raises(op.ParameterError, match=r"700 nm.* for which paint is known"):
+    with pytest.raises(op.errors.ParameterError, match=r"700 nm.* for which paint is known"):
         painted(op.Wavelength()).bind(wavelength="700 nm")
     turn, paint = op.Parameter("wavelength", "50 deg"), painted(op.Wavelength())
     with pytest.raises(op.OptipathError, match="use two names"):

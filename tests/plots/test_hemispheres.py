@@ -268,23 +268,29 @@ def test_wavelengths_that_differ_are_told_and_what_is_no_hemisphere_or_not_measu
     ax = in_plane(several, wavelength="600 nm", source=[1, 0, 1, 0])
     assert ax.get_title() == "S0, reflected, in the plane of incidence\nsource (1, 0, 1, 0)"
     assert names_of(ax) == ["a, 450 nm", "b, 600 nm", "c"]
-    with pytest.raises(op.SurfaceError, match="give a wavelength of 450 nm, or leave it out"):
+    with pytest.raises(
+        op.errors.SurfaceError, match="give a wavelength of 450 nm, or leave it out"
+    ):
         in_plane(blue, wavelength="600 nm")
     assert in_plane(blue).get_title() == "S0, reflected, incidence 60°, 450 nm"
     for wrong in (None, "sample"):
-        with pytest.raises(op.SurfaceError, match="is no Hemisphere; give what op"):
+        with pytest.raises(op.errors.SurfaceError, match="is no Hemisphere; give what op"):
             hemisphere(wrong)
-    with pytest.raises(op.SurfaceError, match="550 nm has not been measured; give a wavelength"):
+    with pytest.raises(
+        op.errors.SurfaceError, match="550 nm has not been measured; give a wavelength"
+    ):
         hemisphere(measured("gold"), wavelength="550 nm")
-    with pytest.raises(op.SurfaceError, match="give one Hemisphere at least"):
+    with pytest.raises(op.errors.SurfaceError, match="give one Hemisphere at least"):
         in_plane({})
-    with pytest.raises(op.SurfaceError, match=r"^b: 3 is no Hemisphere"):
+    with pytest.raises(op.errors.SurfaceError, match=r"^b: 3 is no Hemisphere"):
         in_plane({"a": measured("silver"), "b": 3})
-    with pytest.raises(op.SurfaceError, match="measure with events=1"):
+    with pytest.raises(op.errors.SurfaceError, match="measure with events=1"):
         beside_facets(measured("silver"))
     sample, options = op.load_sample("perfect-reflector-rough"), {"sensor": 16, "photons": 600}
     found = op.measure(sample, "60 deg", polarized="polarized", **options)
-    with pytest.raises(op.SurfaceError, match="has not been measured; measure with polarized"):
+    with pytest.raises(
+        op.errors.SurfaceError, match="has not been measured; measure with polarized"
+    ):
         differences(found)
 
 
@@ -309,7 +315,7 @@ def test_wavelengths_that_differ_are_told_and_what_is_no_hemisphere_or_not_measu
     ],
 )
 def test_what_does_not_go_together_is_refused(quantity, given, sentence):
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         hemisphere(measured("mirror"), quantity, **given)
 
 
@@ -332,5 +338,5 @@ OTHER = "550 nm has not been measured; give a wavelength of 500 nm and 600 nm"
 )
 def test_faults_name_their_curves(names, given, sentence):
     several = {name: measured(name) for name in names.split(", ")}
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         in_plane(several if len(several) > 1 else several[names], **given)

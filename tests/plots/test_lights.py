@@ -317,7 +317,7 @@ def test_what_jax_traces_is_refused():
         (lambda given: ellipse(op.Light(given[0])), "a picture of light takes numbers"),
         (lambda given: mueller(op.Mueller(given)), "a picture of a Mueller matrix takes numbers"),
     ):
-        with pytest.raises(op.ParameterError, match=told):
+        with pytest.raises(op.errors.ParameterError, match=told):
             jax.jit(draw)(np.eye(4))
 
 
@@ -462,7 +462,7 @@ def test_fast_trails_keep_outside_the_sphere_and_too_fast_ones_are_told():
     assert "faster with wavelength than 23041 points tell" in ax.get_title().replace("\n", " ")
     assert faults_of(ax.figure) == []
     assert len(segments_of(trail("wavelength", "500 nm:600 nm:9"))) == 8
-    with pytest.raises(op.ParameterError, match="did you mean 'wavelength'"):
+    with pytest.raises(op.errors.ParameterError, match="did you mean 'wavelength'"):
         trail("wavelenth")
 
 

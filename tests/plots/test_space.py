@@ -214,7 +214,7 @@ def test_links_are_as_long_to_the_right_as_up_straight_paths_level_and_odd_views
     for draw in (bench, geometry):
         ax = Figure().add_subplot()
         assert draw(MALUS, ax) is ax
-    with pytest.raises(op.PathError, match=r"which light leaves at 'X1'; draw 'geometry'"):
+    with pytest.raises(op.errors.PathError, match=r"which light leaves at 'X1'; draw 'geometry'"):
         bench(op.load_preset("npgr026", case="8"))
     for view in (3, "front", (1, 2, 3), (np.nan, 0.0)):
         with pytest.raises(op.OptipathError, match="give elevation and azimuth"):
@@ -224,14 +224,14 @@ def test_links_are_as_long_to_the_right_as_up_straight_paths_level_and_odd_views
 @rows("draw", [geometry, bench, scene_of])
 def test_several_paths_no_path_and_light_that_goes_no_way_are_refused_with_the_cure(draw):
     told = f"{draw.__name__.replace('_of', '')} draws one path.*angle.*single values"
-    with pytest.raises(op.PathError, match=told):
+    with pytest.raises(op.errors.PathError, match=told):
         draw(MALUS, angle=[0.1, 0.2])
     for wrong in ("malus", op.Polarizer(0.0)):
         with pytest.raises(op.OptipathError, match=r"draws a path, not .*give a PathGraph"):
             draw(wrong)
     points = [[0, -1, 1], [0, 0, 0], [0, 9, 1]]
     path = op.path_from_vertices(points, [1.5], events="T", bad="mask")
-    with pytest.raises(op.PathError, match=r"draws light, which is not a number on '"):
+    with pytest.raises(op.errors.PathError, match=r"draws light, which is not a number on '"):
         draw(path)
 
 

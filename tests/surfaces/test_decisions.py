@@ -112,9 +112,9 @@ def test_single_scattering_is_held_against_all_light_of_each_pixel():
     ],
 )
 def test_what_cannot_be_decided_is_told_and_all_of_it_at_once(index, options, sentence):
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         decide(op.Sample([(index, 0.3)]), "30 deg", **options)
-    with pytest.raises(op.SurfaceError) as caught:
+    with pytest.raises(op.errors.SurfaceError) as caught:
         decide(op.Sample([(1.5, 0.1)]), 2.0, 1.0, photons=0, side="up", seed=-1)
     told = "\n".join(caught.value.faults)
     for each in ("photons", "tolerance is 1.0", "'up'", "incidence", "seed"):

@@ -103,11 +103,15 @@ def test_photons_are_walked_until_the_error_is_small_enough(tolerance, least):
 
 
 def test_an_error_that_stays_larger_is_told_and_so_is_progress():
-    with pytest.warns(op.PhotonWarning, match="after 20000 photons, more than the tolerance"):
+    with pytest.warns(
+        op.errors.PhotonWarning, match="after 20000 photons, more than the tolerance"
+    ):
         found = surfaces.energy(GLASS, "40 deg", photons=20_000, tolerance=1e-6)
     assert found.photons == 20_000
     assert np.isnan(surfaces.energy(GLASS, "40 deg", photons=1).R_se)
-    with pytest.warns(op.PhotonWarning, match="the standard error of R is nan after 1 photons"):
+    with pytest.warns(
+        op.errors.PhotonWarning, match="the standard error of R is nan after 1 photons"
+    ):
         surfaces.energy(GLASS, "40 deg", photons=1, tolerance=0.01)
     told = []
     surfaces.energy(GLASS, "40 deg", photons=40_000, progress=lambda *how: told.append(how))
@@ -137,7 +141,7 @@ COUNT = "must be a whole number of 1 or more, not 0"
     ],
 )
 def test_what_cannot_be_is_told_and_all_of_it_at_once(wrong, sentence):
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         surfaces.energy(**{"sample": GLASS, "incidence": "40 deg"} | wrong)
 
 
@@ -183,7 +187,7 @@ def test_trapped_light_that_few_photons_carry_is_warned_of(monkeypatch):
         return whole(beam, sums)
 
     monkeypatch.setattr(Energy, "of", of)
-    with pytest.warns(op.PhotonWarning, match="where nothing absorbs, off by"):
+    with pytest.warns(op.errors.PhotonWarning, match="where nothing absorbs, off by"):
         found = surfaces.energy(op.Sample([(1.5, 0), (2.4, 0)]), "60 deg", photons=50_000)
     assert np.isclose(float(found.scalar.R + found.scalar.T), 1.0)
 
@@ -226,7 +230,7 @@ def test_results_of_other_seeds_differ_by_their_errors(layers):
         assert 14.0 < np.sum((values - values.mean()) ** 2) / np.mean(errors**2) < 114.0, part
 
 
-@pytest.mark.filterwarnings("ignore::optipath.MeshWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.MeshWarning")
 def test_random_surfaces_differ_by_no_more_than_the_error():
     samples = [op.Sample([(1.5, 1.0)], cells=64, surfaces=4, seed=seed) for seed in range(8)]
     shares = [

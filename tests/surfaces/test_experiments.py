@@ -56,7 +56,7 @@ def written(folder, text):
 
 
 def refused(folder, text):
-    with pytest.raises(op.SurfaceError) as error:
+    with pytest.raises(op.errors.SurfaceError) as error:
         load_experiment(written(folder, text))
     return error.value.faults
 
@@ -69,7 +69,7 @@ def test_every_published_sample_has_an_experiment_with_its_source_numbers_and_wa
         assert found.sample == op.load_sample(name)
         assert found.source.startswith("M. Wang et al., Optics Express 25(19), 2017, "), name
         assert all(one.text and one.measure in MEASURES for one in found.measurements), name
-    with pytest.raises(op.SurfaceError, match="did you mean 'wang-2017-table-1'"):
+    with pytest.raises(op.errors.SurfaceError, match="did you mean 'wang-2017-table-1'"):
         load_experiment("wang-2017-tabel-1")
     found = load_experiment("wang-2017-simulation-01").measurements
     known = {one.incidence: one.published for one in found}
@@ -266,5 +266,5 @@ def test_a_seed_gives_the_same_numbers_with_any_number_of_threads():
     again = walked(experiment, 1000, progress=lambda *counts: told.append(counts))
     assert all(one.agrees for one in again)
     assert told.count((1000, 1000)) >= 3
-    with pytest.raises(op.SurfaceError, match=r"measure with more photons$"):
+    with pytest.raises(op.errors.SurfaceError, match=r"measure with more photons$"):
         found(op.Sample([(1.5, 0.3)], cells=400), "adm", "60 deg", 1)

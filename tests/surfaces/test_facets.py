@@ -300,11 +300,11 @@ def test_slopes_are_finite_at_the_limits_and_what_is_not_allowed_is_no_number(ja
 )
 def test_what_is_wrong_is_told_and_all_of_it_at_once(wrong, sentence):
     right = {"index": 1.5, "alpha": 0.3, "incoming": down(0.5), "outgoing": direction(0.5)}
-    with pytest.raises(op.SurfaceError) as told:
+    with pytest.raises(op.errors.SurfaceError) as told:
         single_scattering(**right | wrong)
     assert len(told.value.faults) == 1
     assert sentence in str(told.value)
-    with pytest.raises(op.SurfaceError, match="5 faults"):
+    with pytest.raises(op.errors.SurfaceError, match="5 faults"):
         single_scattering(-1.0, 0.0, direction(0.5), down(0.5), masking="no")
 
 

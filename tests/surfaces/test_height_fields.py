@@ -38,7 +38,7 @@ def triangles_of(field):
 
 
 def faults_of(make, *values, **named):
-    with pytest.raises(op.SurfaceError) as caught:
+    with pytest.raises(op.errors.SurfaceError) as caught:
         make(*values, **named)
     return caught.value.faults
 
@@ -220,7 +220,7 @@ def test_the_size_that_is_offered_is_taken_and_little_larger_than_needed(alpha_x
 )
 def test_a_coarse_mesh_is_warned_of_with_what_is_lost_and_what_would_do(alpha, size, cells, said):
     alphas = alpha if isinstance(alpha, tuple) else (alpha,)
-    with pytest.warns(op.MeshWarning, match=said) as caught:
+    with pytest.warns(op.errors.MeshWarning, match=said) as caught:
         HeightField.beckmann(*alphas, size=size, cells=cells)
     assert caught[0].filename == __file__
     if cells in (319, 74, 247):
@@ -359,7 +359,7 @@ def test_heights_of_many_surfaces_are_normal(rng):
 
 
 def test_the_mesh_loses_the_slopes_that_the_warning_speaks_of():
-    with pytest.warns(op.MeshWarning):
+    with pytest.warns(op.errors.MeshWarning):
         coarse = HeightField.beckmann(1.0, size=80.0, cells=120, seed=1)
     # A chord of cos(f x) over dx has sin(f dx / 2) / (f dx / 2) of its slope; over a normal
     # spectrum of variance 1/2 for f, the mean of its square is (1 - exp(-dx^2 / 4)) 2 / dx^2.

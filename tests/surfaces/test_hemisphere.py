@@ -63,9 +63,13 @@ def test_brdf_is_light_over_solid_angle_and_cosine(glass):
     )
     assert one.brdf(polarized=False).name == "brdf"
     for ask in (one.brdf, one.stokes, one.dop, one.dolp, one.aop):
-        with pytest.raises(op.SurfaceError, match="the Mueller matrix has not been measured"):
+        with pytest.raises(
+            op.errors.SurfaceError, match="the Mueller matrix has not been measured"
+        ):
             ask()
-    with pytest.raises(op.SurfaceError, match="light without polarisation has not been measured"):
+    with pytest.raises(
+        op.errors.SurfaceError, match="light without polarisation has not been measured"
+    ):
         other.brdf(polarized=False)
 
 
@@ -142,14 +146,16 @@ def test_angles_of_light_turned_by_a_right_angle_have_the_same_errors():
 )
 def test_what_is_no_source_is_told(silver, source, told):
     for ask in (silver.stokes, silver.dop, silver.dolp, silver.aop):
-        with pytest.raises(op.SurfaceError, match=told):
+        with pytest.raises(op.errors.SurfaceError, match=told):
             ask(source)
 
 
 def test_what_follows_comes_of_a_function_that_returns_real_numbers(glass):
     for estimate in (glass.own.estimate, lambda found: glass.estimate_toward(found, "56 deg")):
         for value in (None, 1j, True):
-            with pytest.raises(op.SurfaceError, match="let the function return real numbers"):
+            with pytest.raises(
+                op.errors.SurfaceError, match="let the function return real numbers"
+            ):
                 estimate(lambda _, value=value: value)
     assert glass.estimate_toward(lambda _: 2, "56 deg") == (2, 0.0)
 
@@ -161,7 +167,7 @@ def test_maps_are_of_both_and_of_enough_photons():
         ({}, "measure with more photons$"),
     ):
         few = op.measure(GLASS, 0.5, 100, sensor=8, **options)
-        with pytest.raises(op.SurfaceError, match=sentence):
+        with pytest.raises(op.errors.SurfaceError, match=sentence):
             few.adm()
     # Noise that is not known masks nothing silently.
     assert np.isfinite(few.adm(noise=None)).any()
@@ -473,6 +479,6 @@ def test_a_sample_with_a_direction_is_modelled_in_the_frame_of_the_light(inciden
 @rows("heights", [0.0, op.surfaces.HeightField(np.eye(3), 3.0, periodic=True)])
 def test_surfaces_without_a_density_of_slopes_are_told_with_all_else(heights):
     found = op.measure(op.Sample([(METAL, heights)]), "40 deg", 100, sensor=8)
-    with pytest.raises(op.SurfaceError, match="no alpha above 0") as caught:
+    with pytest.raises(op.errors.SurfaceError, match="no alpha above 0") as caught:
         found.single_scattering("smooth", points=0)
     assert len(caught.value.faults) == 3

@@ -112,7 +112,7 @@ def test_a_hemisphere_takes_the_place_of_another_unless_writing_fails(
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(xr.Dataset, way, full)
-    with pytest.raises(op.SurfaceError, match=rf"a{form}' cannot be written: No space left"):
+    with pytest.raises(op.errors.SurfaceError, match=rf"a{form}' cannot be written: No space left"):
         glass.save(tmp_path / f"a{form}")
     assert same_bits(op.load_hemisphere(tmp_path / f"a{form}"), metal)
     assert len([*tmp_path.iterdir()]) == 1
@@ -134,7 +134,7 @@ def test_what_cannot_be_saved_is_told(name, options, sentence, metal, tmp_path):
         pytest.importorskip("OpenEXR")
     (tmp_path / "letters.zarr").mkdir(exist_ok=True)
     (tmp_path / "letters.zarr/dear.txt").write_text("dear")
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         metal.save(tmp_path / name, **options)
     assert (tmp_path / "letters.zarr/dear.txt").read_text() == "dear"
 
@@ -176,7 +176,7 @@ def test_what_is_no_hemisphere_or_a_damaged_one_is_told(metal, tmp_path):
         # By the version that reads it.
         "later.nc": r"layout 7, .* reads layout 1; load it by optipath 0",
     }.items():
-        with pytest.raises(op.SurfaceError, match=sentence):
+        with pytest.raises(op.errors.SurfaceError, match=sentence):
             op.load_hemisphere(tmp_path / name)
 
 
@@ -195,11 +195,11 @@ def test_a_sample_that_has_no_form_in_files_is_not_known_unless_it_is_given(tmp_
     assert same_bits(again, found)
     assert not again.seen.beam.sample.isotropic
     assert repr(again).startswith("Hemisphere of a sample that is not known at 40 deg")
-    with pytest.raises(op.SurfaceError, match=r"not known: .*in no file.*sample=\.\.\."):
+    with pytest.raises(op.errors.SurfaceError, match=r"not known: .*in no file.*sample=\.\.\."):
         again.seen.beam.block(0)
-    with pytest.raises(op.SurfaceError, match=r"is not the one measured"):
+    with pytest.raises(op.errors.SurfaceError, match=r"is not the one measured"):
         op.load_hemisphere(file, sample=sample_of_heights(seed=2))
-    with pytest.raises(op.SurfaceError, match=r"sample is 'mirror', which is not the"):
+    with pytest.raises(op.errors.SurfaceError, match=r"sample is 'mirror', which is not the"):
         op.load_hemisphere(file, sample="mirror")
     for _ in range(2):
         again = op.load_hemisphere(file, sample=sample_of_heights(description="the same"))
@@ -217,7 +217,7 @@ def test_a_sample_that_has_no_form_in_files_is_not_known_unless_it_is_given(tmp_
     np.save(tmp_path / "heights.npy", 2.0 * heights())
     again = op.load_hemisphere(file)
     assert same_bits(again, found)
-    with pytest.raises(op.SurfaceError, match=r"its heights are not in this file; give it"):
+    with pytest.raises(op.errors.SurfaceError, match=r"its heights are not in this file; give it"):
         _ = again.seen.beam.sample.layers
     assert op.load_hemisphere(file, sample=sample).seen.beam.sample == sample
 
@@ -267,7 +267,9 @@ def test_a_channel_is_a_stokes_component_of_a_wavelength_and_the_header_says_wha
 
 def test_without_wavelengths_channels_are_grey_and_one_side_is_asked_for(tmp_path):
     glass = measured([(1.5, 0.2)])
-    with pytest.raises(op.SurfaceError, match=r"give side='reflected' or side='transmitted'"):
+    with pytest.raises(
+        op.errors.SurfaceError, match=r"give side='reflected' or side='transmitted'"
+    ):
         glass.save(tmp_path / "a.exr")
     glass.save(tmp_path / "a.exr", side="transmitted")
     channels, header = read(tmp_path / "a.exr")

@@ -171,7 +171,7 @@ def test_a_store_is_what_xarray_opens_and_one_of_another_measurement_is_left_alo
     ],
 )
 def test_what_is_no_store_or_scheduler_is_told_with_all_other_faults(options, told):
-    with pytest.raises(op.SurfaceError, match="photons") as error:
+    with pytest.raises(op.errors.SurfaceError, match="photons") as error:
         measured(photons=0, **options)
     assert told in "\n".join(error.value.faults)
 
@@ -189,7 +189,9 @@ def test_what_a_store_needs_is_named_before_photons_are_walked(store, walked):
 def test_a_worker_of_another_version_is_refused(monkeypatch):
     monkeypatch.setattr(of_job, "measuring_code", lambda: "0.1, old")
     job = ChunkJob(None, None, 1, code="0.2, new")
-    with pytest.raises(op.SurfaceError, match=r"worker has optipath 0.1, old.* begun by 0.2, new"):
+    with pytest.raises(
+        op.errors.SurfaceError, match=r"worker has optipath 0.1, old.* begun by 0.2, new"
+    ):
         job.compute(0)
 
 

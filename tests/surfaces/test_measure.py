@@ -89,7 +89,7 @@ def test_what_is_left_out_changes_nothing_else(polarized, name):
     for each in (name, f"{name}_se"):
         assert np.array_equal(one.dataset[each], both.dataset[each])
     assert {"mueller", "scalar", "difference"} & {*one.dataset} == {name}
-    with pytest.raises(op.SurfaceError, match="measure with polarized='both' or"):
+    with pytest.raises(op.errors.SurfaceError, match="measure with polarized='both' or"):
         _ = one.difference
 
 
@@ -130,11 +130,11 @@ def test_threads_change_no_bits_and_photons_by_number_of_facets_met_are_all_ther
     ],
 )
 def test_what_cannot_be_measured_is_told_and_all_of_it_at_once(given, sentence):
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         op.measure(OBLONG, "40 deg", 100, **given)
     wrong = dict.fromkeys(("events", "most_events", "threads"), 0)
     wrong |= {"azimuth": "x", "symmetric": 2, "progress": 3}
-    with pytest.raises(op.SurfaceError) as caught:
+    with pytest.raises(op.errors.SurfaceError) as caught:
         op.measure(SILVER, "95 deg", 0, "red", "equal", -1, "yes", **wrong)
     text = "\n".join(caught.value.faults)
     for name in (*wrong, "photons", "polarized", "projection", "incidence", "seed", "wavelength"):

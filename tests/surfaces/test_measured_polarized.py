@@ -182,9 +182,9 @@ def test_hemispheres_that_do_not_belong_together_are_told(hemispheres, tmp_path)
         ([first, colours], r"is of another sample or other wavelengths than"),
         ([other, turned], r"the table is of isotropic samples"),
     ]:
-        with pytest.raises(op.SurfaceError, match=sentence):
+        with pytest.raises(op.errors.SurfaceError, match=sentence):
             write_measured_polarized(file, given)
-    with pytest.raises(op.SurfaceError, match=r"leave wavelengths= out"):
+    with pytest.raises(op.errors.SurfaceError, match=r"leave wavelengths= out"):
         write_measured_polarized(file, hemispheres, wavelengths=[5e-7])
 
 

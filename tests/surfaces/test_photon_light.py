@@ -103,7 +103,7 @@ def expect_kernels(sample, incidence, photons):
     return ends
 
 
-@pytest.mark.filterwarnings("ignore::optipath.MeshWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.MeshWarning")
 def test_light_at_flat_and_rough_interfaces_is_that_of_kernels():
     incidences = (0.0, 1e-9, 0.7, math.atan(1.5), 1.5, math.pi / 2 - 1e-9)
     for indices in ([1.5], [1.5, 2.4], [1.5, 0.2 + 3.4j], [1j]):
@@ -269,7 +269,7 @@ def test_frames_are_perpendicular_to_the_meridional_plane_and_light_is_polarised
     gold = op.Sample([(op.Material.named("gold"), 0.3)])
     found = surfaces.photon_ends(gold, "40 deg", photons=50, wavelength=[450e-9, 650e-9])
     assert (found.stokes.shape, found.scalar.shape) == ((50, 2, 4), (50, 2))
-    with pytest.raises(op.SurfaceError, match="photons must be a whole number of 1 or more"):
+    with pytest.raises(op.errors.SurfaceError, match="photons must be a whole number of 1 or more"):
         surfaces.photon_ends(gold, "40 deg", photons=0)
 
 

@@ -143,9 +143,13 @@ def test_several_wavelengths_ride_on_one_photon_and_its_path():
         alone = sample.photon(4, ANGLE, wavelength=wavelength)
         assert np.array_equal(alone.stokes, photon.stokes[place])
     for which in (3, True):
-        with pytest.raises(op.SurfaceError, match=r"which is .*shape \(3,\); give the place"):
+        with pytest.raises(
+            op.errors.SurfaceError, match=r"which is .*shape \(3,\); give the place"
+        ):
             photon.path(which)
-    with pytest.raises(op.SurfaceError, match=r"which is 0, but wavelengths have the shape \(\)"):
+    with pytest.raises(
+        op.errors.SurfaceError, match=r"which is 0, but wavelengths have the shape \(\)"
+    ):
         op.Sample([(1.5, 0.0)]).photon(0, ANGLE).path(0)
 
 
@@ -212,7 +216,7 @@ FLAT = op.Sample([(1.5, 0.0)])
     ],
 )
 def test_a_photon_that_cannot_be_is_refused(ask, sentence):
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         ask()
 
 

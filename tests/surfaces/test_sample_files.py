@@ -73,7 +73,7 @@ def faults(loaded):
     """The faults of a text."""
 
     def of(text, **others):
-        with pytest.raises(op.SurfaceError) as error:
+        with pytest.raises(op.errors.SurfaceError) as error:
             loaded(text, **others)
         return list(error.value.faults)
 
@@ -125,10 +125,10 @@ def test_metals_are_those_of_the_database_from_380_to_700_nm(name):
     ],
 )
 def test_what_is_neither_a_name_nor_a_file_of_text_is_refused(of, sentence, tmp_path):
-    with pytest.raises(op.SurfaceError, match=sentence):
+    with pytest.raises(op.errors.SurfaceError, match=sentence):
         op.load_sample(of)
     (tmp_path / "own.toml").write_bytes(b"\xff\xfe")
-    with pytest.raises(op.SurfaceError, match=r"own\.toml' is not UTF-8"):
+    with pytest.raises(op.errors.SurfaceError, match=r"own\.toml' is not UTF-8"):
         op.load_sample(tmp_path / "own.toml")
 
 
@@ -227,7 +227,7 @@ def test_faults_of_keys_and_then_of_values_are_told_at_once_with_their_file(load
     text = "seed = -1\ncells = 1\n[[layers]]\nindex = { n = 1.5, k = 0.1 }\nalpha = -0.1\n"
     places = [fault.partition(" ")[0] for fault in faults(text + LAYER)]
     assert places == ["layers[0].index", "layers[0].alpha", "cells", "seed"]
-    with pytest.raises(op.SurfaceError, match=r"^own\.toml: layers\[0\]\.alpha is -1"):
+    with pytest.raises(op.errors.SurfaceError, match=r"^own\.toml: layers\[0\]\.alpha is -1"):
         loaded("[[layers]]\nindex = 1.5\nalpha = -1")
     assert "own.toml' is not TOML" in faults("layers = [")[0]
 
@@ -256,7 +256,7 @@ def test_every_sample_of_numbers_is_read_back_the_same(tmp_path_factory, above, 
 
 def test_what_has_no_form_in_a_file_cannot_be_written(loaded, tmp_path):
     heights = HeightField.from_heights(np.eye(5), (3.0, 4.0))
-    with pytest.raises(op.SurfaceError) as error:
+    with pytest.raises(op.errors.SurfaceError) as error:
         op.Sample([(1.5, heights), (2.4, 0.1), (1.5, heights)]).to_toml()
     told = ": its heights are in no file that it knows of; save them by numpy.save("
     for place, fault in zip((0, 2), error.value.faults, strict=True):
@@ -265,7 +265,7 @@ def test_what_has_no_form_in_a_file_cannot_be_written(loaded, tmp_path):
     np.save(tmp_path / "heights.npy", heights.heights)
     text = '[[layers]]\nindex = 1.5\nheights = "heights.npy"\nsize = [3.0, 4.0]\n'
     assert text in loaded(text).to_toml()
-    with pytest.raises(op.SurfaceError, match=r"layers\[0\]: .* has no form in a preset"):
+    with pytest.raises(op.errors.SurfaceError, match=r"layers\[0\]: .* has no form in a preset"):
         op.Sample([(op.Material(*metal()), 0.1)]).to_toml()
 
 
@@ -341,7 +341,7 @@ def written(folder, name, text):
 
 
 def refused(file, size=1.0):
-    with pytest.raises(op.SurfaceError) as caught:
+    with pytest.raises(op.errors.SurfaceError) as caught:
         HeightField.from_file(file, size)
     assert caught.value.about == str(file)
     return caught.value.faults[0]
@@ -403,11 +403,11 @@ def test_arrays_that_are_cut_off_or_could_run_something_and_no_files_are_refused
     assert refused(tmp_path / "a.txt") == "cannot be read: No such file or directory"
     (tmp_path / "a.txt").mkdir()
     assert refused(tmp_path / "a.txt") == "cannot be read: Is a directory"
-    with pytest.raises(op.SurfaceError, match="name of a file"):
+    with pytest.raises(op.errors.SurfaceError, match="name of a file"):
         HeightField.from_file(3, 1.0)
     # Faults of a size are told with those of the file.
     file = written(tmp_path, "c.txt", "1 nan 3\n" * 3)
-    with pytest.raises(op.SurfaceError, match="2 faults") as caught:
+    with pytest.raises(op.errors.SurfaceError, match="2 faults") as caught:
         HeightField.from_file(file, 0)
     assert caught.value.about == str(file)
 

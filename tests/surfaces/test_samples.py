@@ -24,7 +24,7 @@ def heights(*, periodic=False):
 
 
 def refused(*given, **others):
-    with pytest.raises(op.SurfaceError) as error:
+    with pytest.raises(op.errors.SurfaceError) as error:
         op.Sample(*given, **others)
     return error.value.faults
 
@@ -35,7 +35,7 @@ def fault_of(*given, **others):
 
 
 def faults_at(layers, wavelength=None, **others):
-    with pytest.raises(op.SurfaceError) as error:
+    with pytest.raises(op.errors.SurfaceError) as error:
         op.Sample(layers, **others).indices(wavelength)
     return error.value.faults
 
@@ -97,7 +97,7 @@ def test_fields_are_forty_correlation_lengths_wide_with_sixteen_cells_each():
     assert not op.Sample([(1.5, 0.4)], periodic=False).fields()[0].periodic
     # Too few cells are warned of when they are drawn.
     sample = op.Sample([(1.5, 0.4)], cells=200)
-    with pytest.warns(op.MeshWarning, match="200 x 200 cells"):
+    with pytest.warns(op.errors.MeshWarning, match="200 x 200 cells"):
         sample.fields()
 
 
@@ -231,10 +231,10 @@ def test_indices_are_numbers_and_those_of_materials_at_the_wavelength():
 
 def test_numbers_that_jax_traces_are_refused():
     jax = pytest.importorskip("jax")
-    with pytest.raises(op.SurfaceError, match="has one index there"):
+    with pytest.raises(op.errors.SurfaceError, match="has one index there"):
         jax.grad(lambda n: op.Sample([(n, 0.1)]).seed)(1.5)
     sample = op.Sample([(METAL, 0.1)])
-    with pytest.raises(op.SurfaceError, match="wavelength is traced by JAX"):
+    with pytest.raises(op.errors.SurfaceError, match="wavelength is traced by JAX"):
         jax.grad(lambda wavelength: sample.indices(wavelength).n)(5e-7)
 
 

@@ -84,7 +84,7 @@ def test_light_that_goes_on_is_on_the_right_and_y_goes_with_rows():
     sensor = surfaces.Sensor(5)
     assert sensor.place([[0.6, 0, 0.8], [0, 0.6, 0.8], [0, 0, 1]]).tolist() == [13, 17, 12]
     assert (sensor.phi[2, 4], sensor.phi[4, 2]) == (0.0, pytest.approx(np.pi / 2.0))
-    with pytest.raises(op.SurfaceError) as caught:
+    with pytest.raises(op.errors.SurfaceError) as caught:
         surfaces.Sensor(0, "equi-area", 1)
     assert [*caught.value.faults] == [
         "pixels must be a whole number of 1 or more, not 0",
@@ -119,7 +119,7 @@ def test_pixels_count_that_are_bright_and_known_by_a_share_or_by_themselves():
     # Any noise leaves out what is no number only.
     known = PixelMask(noise=None).known(np.array([np.nan, 0.1]), np.array([0.0, np.nan]))
     np.testing.assert_array_equal(known, [False, True])
-    with pytest.raises(op.SurfaceError) as caught:
+    with pytest.raises(op.errors.SurfaceError) as caught:
         PixelMask(-1.0, noise=True, known_to=np.inf)
     faults = [fault.split()[0] for fault in caught.value.faults]
     assert faults == ["brighter_than", "noise", "known_to"]

@@ -165,7 +165,7 @@ def test_what_is_let_through_is_seen_from_below():
     ],
 )
 def test_directions_that_are_none_are_refused(rough, direction, message):
-    with pytest.raises(op.SurfaceError, match=message):
+    with pytest.raises(op.errors.SurfaceError, match=message):
         rough.toward(direction)
 
 
@@ -194,9 +194,9 @@ def by_chance():
     ],
 )
 def test_what_there_is_not_is_refused(rough, ask, message):
-    with pytest.raises(op.SurfaceError, match=message):
+    with pytest.raises(op.errors.SurfaceError, match=message):
         ask(rough)
-    with pytest.warns(op.PhotonWarning, match="more and smaller pixels"):
+    with pytest.warns(op.errors.PhotonWarning, match="more and smaller pixels"):
         rough.toward("2 deg")
     rough.toward("30 deg")
 
@@ -210,7 +210,7 @@ def test_each_wavelength_has_its_own_light_and_one_of_several_is_asked_for():
         ({"wavelength": "600 nm"}, "'600 nm', and measured is 450 nm or 550 nm"),
         ({"wavelength": lengths}, "and measured is 450 nm or 550 nm; give that"),
     ):
-        with pytest.raises(op.SurfaceError, match=sentence):
+        with pytest.raises(op.errors.SurfaceError, match=sentence):
             several.toward("60 deg", **options)
     for given in ("450 nm", 5.5e-7):
         index = complex(sample.indices(given).base)

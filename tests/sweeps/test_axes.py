@@ -43,7 +43,7 @@ def axis_of(given, plan=NPGR):
 
 
 def refused(*args, **keywords):
-    with pytest.raises(op.ParameterError) as caught:
+    with pytest.raises(op.errors.ParameterError) as caught:
         grid(*args, **keywords)
     return caught.value.faults
 
@@ -205,13 +205,13 @@ def test_values_of_an_axis_that_do_not_do_are_told_with_place_or_cure(given, pla
 
 
 def test_degrees_for_radians_are_warned_of_once_from_the_line_of_the_caller():
-    with pytest.warns(op.AngleWarning, match="parameter 'a' is a plain number") as caught:
+    with pytest.warns(op.errors.AngleWarning, match="parameter 'a' is a plain number") as caught:
         TURNED.sweep(a=[0.1, 45.0]).DoP.load()
     assert [warning.filename for warning in caught] == [__file__]
     TURNED.sweep(a="0 deg:1000 deg:7").DoP.load()  # Texts are what they say.
 
 
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 def test_a_sweep_is_of_the_numbers_of_single_runs():
     plan = TURNED.compose()
     axis = axis_of({"a": labelled([48.0, 12.3], "deg")}, plan)
@@ -263,7 +263,7 @@ def test_all_faults_are_told_at_once_and_what_may_be_meant_is_asked_about():
     assert "at 2, outside its range" in second
     # A hundred million points are refused at once for one of an axis.
     given = {"delta": np.zeros(10_000), "rho": np.append(np.zeros(9_999), 7.0)}
-    with pytest.raises(op.ParameterError, match="at 9999, outside its range"):
+    with pytest.raises(op.errors.ParameterError, match="at 9999, outside its range"):
         grid_of(NPGR.inputs, given, ranges=False)
     assert refused(plan=POWER) == ("parameter 'power' has no value; give one, power=...",)
     plan = (op.Source(op.Parameter("chunks")) >> op.Detector()).compose()

@@ -183,7 +183,7 @@ def test_a_store_goes_into_an_empty_folder_and_stays_where_a_block_is_done(tmp_p
     assert marked(tmp_path / "empty") == {0, 1}
 
     def fails_at(number):
-        with pytest.raises(op.ValueFault):
+        with pytest.raises(op.errors.ValueFault):
             keep_blocks(Powers(3, fails_at=number), store, "synchronous")
 
     fails_at(0)
@@ -203,7 +203,7 @@ def test_a_store_may_be_at_a_url_and_a_place_that_cannot_be_is_told():
         assert np.array_equal(found["power"][:], powers(3))
     with pytest.raises(JobError, match="another job: it has 'powers'"):
         keep_blocks(Powers(3, title="others"), place)
-    with pytest.raises(op.ValueFault):
+    with pytest.raises(op.errors.ValueFault):
         keep_blocks(Powers(3, fails_at=0), "memory://stores/dark.zarr", "synchronous")
     keep_blocks(Powers(2, title="mended"), "memory://stores/dark.zarr")
     for url, told in (

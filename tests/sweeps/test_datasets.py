@@ -81,10 +81,12 @@ def test_paths_without_a_form_are_swept_and_names_of_variables_are_no_parameters
         assert {"Psi", "Delta", "psi", "delta"} & {*swept_by(name).data_vars} == {"Psi", "Delta"}
     assert {"psi", "delta"} <= {*swept_by("share").data_vars}
     for name in ("S0", "DoP"):
-        with pytest.raises(op.ParameterError, match=f"'{name}' is what a sweep calls a variable"):
+        with pytest.raises(
+            op.errors.ParameterError, match=f"'{name}' is what a sweep calls a variable"
+        ):
             swept_by(name)
     assert swept_by("detector").S0.dims == ("detector",)
-    with pytest.raises(op.ParameterError, match="calls a dimension of its own"):
+    with pytest.raises(op.errors.ParameterError, match="calls a dimension of its own"):
         swept_by("detector", "transmitted")
 
 

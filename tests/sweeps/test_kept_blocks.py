@@ -69,7 +69,7 @@ def test_all_blocks_are_computed_once_and_kept_as_a_dataset_without_the_record(t
 
 
 def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(tmp_path, store, log):
-    with pytest.raises(op.ValueFault, match="block 4 is dark"):
+    with pytest.raises(op.errors.ValueFault, match="block 4 is dark"):
         keep_blocks(Powers(7, str(log), fails_at=4), store, "synchronous")
     assert marked(store) == {0, 1, 2, 3}
     with xr.open_zarr(store) as found:
@@ -80,10 +80,10 @@ def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(tmp_pat
     job = Powers(2, fails_at=1)
     other = BlockStore.of(job, str(tmp_path / "other.zarr"))
     fault = _keep_block(job.task(1), other, 1, job.places(1))
-    assert repr(fault) == repr(op.ValueFault("block 1 is dark"))
+    assert repr(fault) == repr(op.errors.ValueFault("block 1 is dark"))
     # In a thread it ends the job.
     log, store = tmp_path / "log of threads", tmp_path / "threads.zarr"
-    with pytest.raises(op.ValueFault, match="block 4 is dark"):
+    with pytest.raises(op.errors.ValueFault, match="block 4 is dark"):
         keep_blocks(Powers(500, str(log), fails_at=4), store, "threads")
     assert len(computed(log)) < 50
 
@@ -91,7 +91,7 @@ def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(tmp_pat
 def test_progress_is_told_to_the_end_and_who_interrupts_keeps_what_is_done(store, tmp_path):
     told = []
     for job in (Powers(4, fails_at=2), Powers(4), Powers(4)):
-        with suppress(op.ValueFault):
+        with suppress(op.errors.ValueFault):
             keep_blocks(job, store, "synchronous", lambda *how: told.append(how))
     assert told == [(0, 4), (1, 4), (2, 4), (2, 4), (3, 4), (4, 4), (4, 4)]
     for scheduler in ("synchronous", "threads"):
@@ -176,7 +176,7 @@ def test_a_cluster_computes_every_block_once_and_tells_an_error(tmp_path, store,
     assert sorted(computed(log)) == list(range(9))
     assert told == [(done, 9) for done in range(10)]
     store = tmp_path / "dark.zarr"
-    with pytest.raises(op.ValueFault, match="block 1 is dark"):
+    with pytest.raises(op.errors.ValueFault, match="block 1 is dark"):
         keep_blocks(Powers(3, fails_at=1), store, client)
     # Its address is enough.
     keep_blocks(Powers(3), store, client.scheduler.address)

@@ -102,7 +102,7 @@ def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store
     kept(store, scheduler="threads")
     others = [{"n": 1.6}, {"delta": DELTAS + 1e-15}, {"chunks": 3}]
     for other in (*others, {"composer": op.Composer(dtype="float32")}):
-        with pytest.raises((JobError, op.ParameterError), match=store.name):
+        with pytest.raises((JobError, op.errors.ParameterError), match=store.name):
             kept(store, **other)
     assert_same_bits(kept(store), swept())
 
@@ -114,18 +114,20 @@ def test_what_is_no_sweep_is_refused_and_left_alone(store, tmp_path, monkeypatch
         return COMPUTE(*given)
 
     store.write_text("mine")
-    with pytest.raises((JobError, op.ParameterError), match="is there"):
+    with pytest.raises((JobError, op.errors.ParameterError), match="is there"):
         kept(store)
     os.mkfifo(tmp_path / "pipe.nc")
     (tmp_path / "device.nc").symlink_to("/dev/zero")
     for name in ("pipe.nc", "device.nc"):
-        with pytest.raises(op.ParameterError, match=rf"{name}' is there already, and is no file"):
+        with pytest.raises(
+            op.errors.ParameterError, match=rf"{name}' is there already, and is no file"
+        ):
             kept(tmp_path / name)
     # What came to be there meanwhile, too.
     file = tmp_path / "folder" / "sweep.nc"
     file.parent.mkdir()
     monkeypatch.setattr(stored, "compute_block", mine)
-    with pytest.raises(op.ParameterError, match="is there already"):
+    with pytest.raises(op.errors.ParameterError, match="is there already"):
         kept(file)
     assert file.read_text() == store.read_text() == "mine"
     assert {each.name for each in file.parent.iterdir()} == {"sweep.nc", ".sweep.nc.blocks"}
@@ -187,7 +189,7 @@ def test_what_stores_have_not_or_is_for_them_alone_is_refused(tmp_path, monkeypa
             if np.longdouble != np.float64
         ),
     ):
-        with pytest.raises(op.ParameterError, match=told):
+        with pytest.raises(op.errors.ParameterError, match=told):
             swept(**given)
     assert not [*tmp_path.iterdir()]
 
@@ -237,7 +239,7 @@ def test_blocks_cover_the_grid_have_every_variable_and_are_the_same_when_pickled
     assert numbers.tolist() == op.load_preset("malus").sweep(angle=angle[region]).S0.values.tolist()
 
 
-@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 def test_whatever_changes_the_bits_or_the_units_is_another_identity_and_its_line_says_what():
     six, given = np.linspace(0.0, 1.0, 6), {"n1": 0.2, "rho": 0.5}
     identity = job_of(**given).identity

@@ -37,12 +37,14 @@ def test_blocks_have_the_sizes_given_or_a_million_points_and_what_is_no_size_is_
     assert chunk_sizes("auto", {"delta": BLOCK + 2}) == {"delta": BLOCK // 2 + 1}
     assert chunk_sizes("auto", {"delta": 10, "rho": BLOCK}, 4)["rho"] == BLOCK // 4
     for chunks in (0, -2, 1.5, True, "big", None, [10]):
-        with pytest.raises(op.ParameterError, match=r"give 'auto', a number .* or {'delta': 10}"):
+        with pytest.raises(
+            op.errors.ParameterError, match=r"give 'auto', a number .* or {'delta': 10}"
+        ):
             chunk_sizes(chunks, SIZES)
-    with pytest.raises(op.ParameterError, match=r"did you mean 'delta'\?") as caught:
+    with pytest.raises(op.errors.ParameterError, match=r"did you mean 'delta'\?") as caught:
         chunk_sizes({"dleta": 10, "rho": "x", "phi": 0, 3: 1}, SIZES)
     assert len(caught.value.faults) == 4
-    with pytest.raises(op.ParameterError, match="there is no axis"):
+    with pytest.raises(op.errors.ParameterError, match="there is no axis"):
         chunk_sizes("auto", {})
 
 
@@ -146,14 +148,14 @@ def test_the_memory_of_light_is_that_of_its_numbers_and_a_chunk_does_not_keep_it
 
 def test_options_of_the_composer_travel_and_paths_without_a_form_in_toml_do_not():
     class Bare(op.Element):
-        angle: op.Angle = 0.0
+        angle: op.fields.Angle = 0.0
 
         @staticmethod
         def mueller_rows(xp, angle):
             return np.eye(4).tolist()
 
     path = op.Source() >> Bare(op.Parameter("angle")) >> op.Detector()
-    with pytest.raises(op.PathError, match="kind"):
+    with pytest.raises(op.errors.PathError, match="kind"):
         path.sweep(angle=[0.0, 1.0], chunks=1)
     plan = sent(MALUS, op.Composer(dtype="float32", engine="numpy", method="textbook")).plan
     assert (plan.dtype, plan.chosen, plan.method) == ("float32", "numpy", "textbook")
@@ -183,7 +185,7 @@ import optipath as op
 from optipath.sweeps.plan_recipe import PlanRecipe
 
 class Half(op.Element, kind="half-of-a-script"):
-    angle: op.Angle = 0.0
+    angle: op.fields.Angle = 0.0
 
     @staticmethod
     def mueller_rows(xp, angle):
@@ -217,7 +219,7 @@ def test_modules_with_elements_are_imported_or_told_where_there_are_none(tmp_pat
         (lost, "'elements_of_nobody', are not there in another process: No module"),
         (pickle.loads(done.stdout), "of '__main__', are not there in another process: .*half"),
     ):
-        with pytest.raises(op.PathError, match=told):
+        with pytest.raises(op.errors.PathError, match=told):
             _ = recipe.plan
     own = OwnClass.of(importlib.import_module("halving").Half)
     assert np.isclose(PlanRecipe(HALVED, own=(own,)).plan.run().intensity, 0.5)
@@ -227,7 +229,7 @@ def rotator(times):
     """A path with a class that is defined anew, as by a cell of a notebook that is run again."""
 
     class Turn(op.Element, kind="turn-of-a-test"):
-        angle: op.Angle = 0.0
+        angle: op.fields.Angle = 0.0
 
         @staticmethod
         def mueller_rows(xp, angle):
@@ -243,9 +245,11 @@ def test_a_class_that_is_defined_anew_is_another_sweep(tmp_path):
         for chosen in ({}, {"chunks": 1}):
             found = path.sweep(angle=angles, **chosen).S1
             assert np.allclose(found, np.cos(times * angles), rtol=0, atol=1e-15)
-        with pytest.raises(op.PathError, match=r"'.*Turn' is defined in no file .* of a module"):
+        with pytest.raises(
+            op.errors.PathError, match=r"'.*Turn' is defined in no file .* of a module"
+        ):
             path.sweep(angle=angles, store=tmp_path / "a.zarr")
-    with pytest.raises(op.PathError, match="is another one on the worker"):
+    with pytest.raises(op.errors.PathError, match="is another one on the worker"):
         _ = sent(paths[2]).plan
 
 

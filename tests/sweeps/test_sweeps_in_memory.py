@@ -174,9 +174,9 @@ def test_what_no_sweep_can_be_of_is_refused_and_options_are_those_of_a_composer(
         (lambda: NPGR.sweep(delta=DELTA, wavelength=WAVELENGTHS), "'wavelength' is unknown"),
         (lambda: MALUS.propagate(angle=(1, 0.1), engine="numpy"), "Composer.engine='numpy'.$"),
     ):
-        with pytest.raises(op.ParameterError, match=told):
+        with pytest.raises(op.errors.ParameterError, match=told):
             ask()
-    with pytest.raises(op.ParameterError, match="angel") as told:
+    with pytest.raises(op.errors.ParameterError, match="angel") as told:
         MALUS.sweep(angle=[0.1], engine="numpy", dtype="float32", angel=1)
     assert told.value.faults[1] == (
         "'engine' and 'dtype' are no parameters of the path; give "

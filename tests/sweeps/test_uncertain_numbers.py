@@ -296,7 +296,7 @@ def test_ranges_that_hardly_any_sample_is_in_and_blocks_too_large_are_refused(mo
         (lambda: drawn(halves, [0, 1], [[1.0, -1.0], [-1.0, 1.0]]), "of a and b"),
         (lambda: sampled(path, t=(0.5, 1e6), samples=100), "of t is within the range"),
     ):
-        with pytest.raises(op.ParameterError, match=f"hardly any sample {told}"):
+        with pytest.raises(op.errors.ParameterError, match=f"hardly any sample {told}"):
             ask()
     tracemalloc.start()
     try:
@@ -305,7 +305,7 @@ def test_ranges_that_hardly_any_sample_is_in_and_blocks_too_large_are_refused(mo
     finally:
         tracemalloc.stop()
     monkeypatch.setattr(memory, "memory", lambda: 2**27)
-    with pytest.raises(op.ParameterError, match="GB of memory or more"):
+    with pytest.raises(op.errors.ParameterError, match="GB of memory or more"):
         sampled(ANALYZED, a=(0.3, 0.1), samples=1_000_000)
     assert sampled(ANALYZED, a=(0.3, 0.1), samples=1_000).uncertainty_of("S0") > 0.0
 

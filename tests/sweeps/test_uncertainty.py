@@ -29,7 +29,7 @@ def by_slopes(path, /, **given):
 
 
 def refused(path, /, **given):
-    with pytest.raises(op.ParameterError) as fault:
+    with pytest.raises(op.errors.ParameterError) as fault:
         path.propagate(**{"method": "differences", **given})
     return fault.value.faults
 
@@ -46,7 +46,7 @@ def test_slopes_are_by_jax_where_it_is_there_and_it_says_so(monkeypatch):
 class Untraced(op.Element, kind="untraced"):
     """A polariser of one's own that looks at its angle, which JAX does not know."""
 
-    angle: op.Angle = 0.0
+    angle: op.fields.Angle = 0.0
 
     @staticmethod
     def mueller_rows(xp, angle):
@@ -105,12 +105,12 @@ def test_a_parameter_called_as_an_option_and_what_cannot_be_asked_are_told(monke
     index = op.Material(op.Parameter("n"), op.Parameter("k"))
     path = op.Source() >> op.Interface(index, 0.3) >> op.Detector()
     assert by_slopes(path, n=(1.5, 0.1), k=(0.1, 0.01)).uncertainty_of("S0") > 0.0
-    with pytest.raises(op.ParameterError, match="did you mean 'intensity'"):
+    with pytest.raises(op.errors.ParameterError, match="did you mean 'intensity'"):
         by_slopes(MALUS, **HALF).uncertainty_of("intensty")
-    with pytest.raises(op.ParameterError, match=r"by name: propagate\(angle=0.3\)"):
+    with pytest.raises(op.errors.ParameterError, match=r"by name: propagate\(angle=0.3\)"):
         MALUS.propagate(0.3)
     monkeypatch.setattr(memory, "memory", lambda: 2**26)
-    with pytest.raises(op.ParameterError, match=r"paths, .* give fewer values at a time"):
+    with pytest.raises(op.errors.ParameterError, match=r"paths, .* give fewer values at a time"):
         by_slopes(MALUS, angle=(np.linspace(0.1, 1.0, 70_000), 0.1))
 
 
@@ -250,7 +250,7 @@ def test_a_number_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_the_use
     sigma = "the standard uncertainty of parameter 'a'"
     angles = {("30 deg", 10): sigma, ("30 deg", (0.1, 10.0)): sigma, (45.0, 0.1): "parameter 'a'"}
     for given, about in angles.items():
-        with pytest.warns(op.AngleWarning, match=f"^{about}") as told:
+        with pytest.warns(op.errors.AngleWarning, match=f"^{about}") as told:
             DARKENED.propagate(a=given, method=method)
         assert [warning.filename for warning in told] == [__file__]
 

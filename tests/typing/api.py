@@ -10,7 +10,7 @@ from optipath.surfaces import single_scattering, write_measured_polarized
 
 
 class HalfWavePlate(op.Element, kind="typed-half-wave-plate"):
-    angle: op.Angle = 0.0
+    angle: op.fields.Angle = 0.0
 
     @staticmethod
     def mueller_rows(xp: Any, angle: Any) -> Any:

@@ -340,10 +340,10 @@ def test_a_batch_too_large_for_the_machine_is_refused_with_the_cure(engine):
     for values in (MANY, {"k2": 1.0} | SIX):
         cure = "give fewer values" if engine == "jax" else "plan.stream"
         for use in (of_engine.run, of_engine.run_all):
-            with pytest.raises(op.ParameterError, match=rf"1e\+12 paths, .* GB; .*{cure}"):
+            with pytest.raises(op.errors.ParameterError, match=rf"1e\+12 paths, .* GB; .*{cure}"):
                 use(**values)
         for use in (of_engine.mueller, of_engine.certificate, of_engine.paths):
-            with pytest.raises(op.ParameterError, match=r"1e\+12 paths, .* GB; give fewer"):
+            with pytest.raises(op.errors.ParameterError, match=r"1e\+12 paths, .* GB; give fewer"):
                 use(**values)
 
 
@@ -385,25 +385,27 @@ def test_a_batch_too_large_is_taken_part_by_part_and_counted():
     assert frame == chain().trace(a=ACROSS[0], b=ALONG[:100]).frame
     thousand = np.linspace(0.1, 1.4, 1000)
     values = {name: thousand.reshape(-1, *given.shape[1:]) for name, given in SIX.items()}
-    with pytest.raises(op.ParameterError, match=r"9e\+15 paths at most, not 1e\+18"):
+    with pytest.raises(op.errors.ParameterError, match=r"9e\+15 paths at most, not 1e\+18"):
         next(plan().stream(10, k2=1.0, **values))
 
 
 def test_memory_is_asked_of_the_machine_and_told_where_it_does_not_tell_or_runs_out(monkeypatch):
     assert memory.memory() > 2**28
-    told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
+    told = pytest.raises(
+        op.errors.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes"
+    )
     with told, memory.enough_for((3, 4), 32):
         raise MemoryError
     monkeypatch.delattr("os.sysconf")
     assert memory.memory() == 16 * 2**30
-    with pytest.raises(op.ParameterError, match=r"and this machine has 17.2 GB"):
+    with pytest.raises(op.errors.ParameterError, match=r"and this machine has 17.2 GB"):
         plan().run(**MANY)
     # Few paths of which much is kept.
     path = op.Source(op.Parameter("power"))
     for _ in range(300):
         path = path >> op.Attenuator(0.999)
     monkeypatch.setattr(memory, "memory", lambda: 2**27)
-    with pytest.raises(op.ParameterError, match=r"of shape \(8000,\), takes 0.2 GB"):
+    with pytest.raises(op.errors.ParameterError, match=r"of shape \(8000,\), takes 0.2 GB"):
         op.Composer(keep="all").compose(path >> op.Detector()).run_all(power=np.ones(8000))
 
 
@@ -411,9 +413,11 @@ def test_a_batch_has_thirty_axes_at_most():
     for axes in (31, 64):
         many = np.full((1,) * axes, 0.1)
         for use in (plan().run, plan().mueller, plan().certificate, plan().paths):
-            with pytest.raises(op.ParameterError, match=f"delta has {axes} axes, .* 30 at most"):
+            with pytest.raises(
+                op.errors.ParameterError, match=f"delta has {axes} axes, .* 30 at most"
+            ):
                 use(**GOLD, delta=many)
-        with pytest.raises(op.PathError, match="30 at most"):
+        with pytest.raises(op.errors.PathError, match="30 at most"):
             op.Rotator(many).mueller()
     several = np.linspace(0.1, 0.2, 3).reshape((1,) * 29 + (3,))
     assert plan().run(**GOLD, delta=several).stokes.shape == (*several.shape, 4)

@@ -49,7 +49,7 @@ def test_a_column_is_asked_for_by_its_name_in_a_file_that_is_not_too_large(tmp_p
         ({"column": 1}, "as texts, not as 1"),
         ({"unit": 5}, "as texts, not as 5"),
     ):
-        with pytest.raises(op.ValueFault, match=told):
+        with pytest.raises(op.errors.ValueFault, match=told):
             op.Spectrum.from_csv(file, **given)
     with file.open("wb") as stream:
         stream.truncate(LARGEST + 1)

@@ -68,7 +68,7 @@ def test_every_engine_takes_a_right_angle_of_single_precision(engine):
     doubles = theta.astype(np.float64)
     doubles[-1] = RIGHT
     np.testing.assert_array_equal(plan.run(theta=theta).stokes, plan.run(theta=doubles).stokes)
-    with pytest.raises(op.ParameterError, match="90"):
+    with pytest.raises(op.errors.ParameterError, match="90"):
         plan.run(theta=np.nextafter(theta, np.float32(2.0)))
 
 
@@ -106,7 +106,7 @@ def test_ranges_of_a_parameter_are_met_in_less_precision_and_in_any_unit():
             beyond = np.nextafter(np.float32(limit), np.float32(way))
             if low <= float(beyond) <= high:
                 beyond = np.nextafter(beyond, np.float32(way))
-            with pytest.raises(op.ParameterError, match="range"):
+            with pytest.raises(op.errors.ParameterError, match="range"):
                 parameter.resolve(beyond)
     for value in (float(np.float32(RIGHT)), np.nextafter(RIGHT, 2.0), np.nextafter(0.0, -1.0)):
         with pytest.raises(op.OptipathError, match="theta"):
@@ -168,7 +168,7 @@ def test_axes_of_less_precision_make_a_frame():
     assert op.Frame().rotated(axes).z.shape == (200, 3)
     long_z = (axes[:, 0], axes[:, 1], np.float32(1.1) * axes[:, 2])
     for wrong in (long_z, [turned[:, i] * (1.0 + 1e-6) for i in range(3)]):
-        with pytest.raises(op.FrameError, match="orthogonal unit vectors"):
+        with pytest.raises(op.errors.FrameError, match="orthogonal unit vectors"):
             op.Frame(*wrong)
 
 
@@ -189,16 +189,16 @@ def test_precisions_go_by_every_name_that_numpy_and_python_have_for_them(given, 
     if np.finfo("g").eps < np.finfo("d").eps:  # Otherwise longdouble is float64.
         for long in (np.longdouble, "g", "longdouble", np.dtype(np.longdouble)):
             assert precision_name(long) == "longdouble"
-            with pytest.raises(op.ComposerError, match="jax' has no longdouble"):
+            with pytest.raises(op.errors.ComposerError, match="jax' has no longdouble"):
                 op.Composer(dtype=long, engine="jax")
 
 
 @rows("given", ODD)
 def test_any_other_dtype_is_refused_and_the_three_are_named(given):
     named = r"is unknown; give 'float64', 'float32' or 'longdouble'"
-    with pytest.raises(op.ComposerError, match=named):
+    with pytest.raises(op.errors.ComposerError, match=named):
         op.Composer(dtype=given)
-    with pytest.raises(op.ComposerError, match="dtype"):
+    with pytest.raises(op.errors.ComposerError, match="dtype"):
         op.fresnel_reflection(1.5, 1.0, 0.0, dtype=given)
 
 
@@ -287,7 +287,7 @@ def test_what_is_not_allowed_is_told_with_its_place(parameter, given, words):
     path = op.Source() >> op.Attenuator(parameter) >> op.Detector()
     with pytest.raises(op.OptipathError, match=words):
         path.trace(x=np.array(given))
-    with pytest.raises(op.ValueFault, match=r"index is \(1.5-1j\) at 1; give"):
+    with pytest.raises(op.errors.ValueFault, match=r"index is \(1.5-1j\) at 1; give"):
         op.Interface(np.array([1.5, 1.5 - 1j]), 0.3)
 
 

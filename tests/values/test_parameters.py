@@ -68,7 +68,7 @@ def test_a_float_is_judged_as_an_array_of_it_is(number, low, high):
         return
     sentences = []
     for given in (number, np.array(number)):
-        with pytest.raises(op.ParameterError) as error:
+        with pytest.raises(op.errors.ParameterError) as error:
             parameter.resolve(given)
         sentences.append(str(error.value))
     assert sentences[0] == sentences[1]
@@ -140,7 +140,7 @@ REFUSED = [
 
 @rows("refused", REFUSED)
 def test_anything_else_is_refused_with_the_way_out(refused):
-    with pytest.raises(op.ParameterError, match=r"parameter 'd' .*(give them|give numbers)"):
+    with pytest.raises(op.errors.ParameterError, match=r"parameter 'd' .*(give them|give numbers)"):
         refused()
 
 
@@ -150,10 +150,10 @@ def test_what_is_no_real_number_is_refused_on_either_side_and_complex_sums_are_a
             with pytest.raises(op.OptipathError):
                 operation(*pair)
     for imaginary in (lambda: D + 1j * Q, lambda: D + 0.1j, lambda: D - 0.1j):
-        with pytest.raises(op.ParameterError, match=r"write op.Material\(n, k\)"):
+        with pytest.raises(op.errors.ParameterError, match=r"write op.Material\(n, k\)"):
             imaginary()
     jax = pytest.importorskip("jax")
-    with pytest.raises(op.ParameterError, match="a value of JAX"):
+    with pytest.raises(op.errors.ParameterError, match="a value of JAX"):
         D * jax.numpy.asarray(2.0)
 
 
@@ -166,13 +166,13 @@ def test_a_text_is_an_offset_by_its_unit():
         (lambda: op.Parameter("d", unit="deg", offset="2 nm"), "'2 nm' is no angle"),
         (lambda: D + "10" + "1 deg", "'1 deg' has the unit 'deg', but a pure number is"),
     ):
-        with pytest.raises(op.UnitError, match=sentence):
+        with pytest.raises(op.errors.UnitError, match=sentence):
             add()
     # A text without a unit is an offset of pure numbers.
     path = op.Source() >> op.Attenuator(D + "0.1") >> op.Detector()
     assert path.trace(d=0.25).intensity == 0.25 + 0.1
     assert op.Interface(D - "0.5", 0.0).index.placed(2.0) == 1.5
-    with pytest.raises(op.ValueFault, match=r"an offset that is a pure number, but Rotator"):
+    with pytest.raises(op.errors.ValueFault, match=r"an offset that is a pure number, but Rotator"):
         op.Rotator(D + "10")
 
 
@@ -254,7 +254,9 @@ def test_a_medium_that_absorbs_everywhere_is_refused_with_a_cure_that_works(plac
 def test_a_medium_that_absorbs_at_some_wavelengths_is_refused_there_with_the_same_cure(tmp_path):
     path = op.Source() >> front(PARTLY) >> op.Detector()
     assert path.trace(wavelength="400 nm").intensity > 0.0
-    with pytest.raises(op.ParameterError, match=r"k of glass at 500 nm is 2e-08, and") as refused:
+    with pytest.raises(
+        op.errors.ParameterError, match=r"k of glass at 500 nm is 2e-08, and"
+    ) as refused:
         path.trace(wavelength="500 nm")
     assert str(refused.value).endswith(MEDIUM_CURE)
     # A table has not the reason of the formula beside it.
@@ -263,6 +265,6 @@ def test_a_medium_that_absorbs_at_some_wavelengths_is_refused_there_with_the_sam
     page = tmp_path / "page.yml"
     page.write_text(f"DATA: [{formula}, {table}]")
     path = op.Source() >> front(op.Material.from_yaml(page)) >> op.Detector()
-    with pytest.raises(op.ParameterError) as refused:
+    with pytest.raises(op.errors.ParameterError) as refused:
         path.trace(wavelength="500 nm")
     assert "formula" not in str(refused.value)

@@ -76,7 +76,9 @@ def test_axes_have_names(tmp_path):
     text = chain([op.Polarizer("30 deg")]).to_toml()
     vertical = read(text.replace('"30 deg"', '"vertical"'), tmp_path)
     assert vertical == chain([op.Polarizer("vertical")])
-    with pytest.raises(op.PathError, match="axis 'vertikal' is unknown; did you mean 'vertical'"):
+    with pytest.raises(
+        op.errors.PathError, match="axis 'vertikal' is unknown; did you mean 'vertical'"
+    ):
         read(text.replace('"30 deg"', '"vertikal"'), tmp_path)
 
 
@@ -156,11 +158,13 @@ def test_a_list_has_its_texts_one_by_one_a_range_those_between_and_a_single_valu
         assert several_texts(DELTA, text) is None
     for text in ("1000:1", "1:50", "inf"):  # Ratios to one are single numbers.
         assert several_texts(NUMBER, text) is None
-    with pytest.raises(op.ParameterError, match=r"may be the ratio 0\.75, or a range") as caught:
+    with pytest.raises(
+        op.errors.ParameterError, match=r"may be the ratio 0\.75, or a range"
+    ) as caught:
         several_texts(NUMBER, "1.2:1.6")
     assert "write '0.75', or '1.2:1.6:11' for eleven" in str(caught.value)
     # With decimal commas, a range is a list of ratios.
-    with pytest.raises(op.ParameterError, match=r"'5:3' may be the ratio"):
+    with pytest.raises(op.errors.ParameterError, match=r"'5:3' may be the ratio"):
         several_texts(NUMBER, "0,5:1,5:3")
     assert several_texts(NUMBER, "1:100, 1:50") == ["1:100", "1:50"]
     assert len(several_texts(NUMBER, "1.2:1.6:11")) == 11
@@ -183,7 +187,7 @@ def test_a_list_has_its_texts_one_by_one_a_range_those_between_and_a_single_valu
     ],
 )
 def test_what_is_wrong_with_a_range_or_list_is_told(text, told):
-    with pytest.raises(op.ParameterError, match=r"^parameter 'delta': ") as caught:
+    with pytest.raises(op.errors.ParameterError, match=r"^parameter 'delta': ") as caught:
         several_texts(DELTA, text)
     assert told in str(caught.value)
 
@@ -202,9 +206,11 @@ def test_a_file_gives_the_cells_of_the_column_of_the_parameter_with_its_unit(tmp
     assert several_texts(DELTA, written(tmp_path, "angle_mrad\n10\n")) == ["10 mrad"]
     text = written(tmp_path, "filter\nnone\nhorizontal\n30 deg\n")
     assert several_texts(POLARIZER, text) == ["none", "horizontal", "30 deg"]
-    with pytest.raises(op.ParameterError, match="begin with the line 'filter'"):
+    with pytest.raises(op.errors.ParameterError, match="begin with the line 'filter'"):
         several_texts(POLARIZER, written(tmp_path, "horizontal\nvertical\n"))
-    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: it cannot be read: No such file"):
+    with pytest.raises(
+        op.errors.ParameterError, match=r"^nowhere\.csv: it cannot be read: No such file"
+    ):
         several_texts(DELTA, "@nowhere.csv")
 
 
@@ -259,7 +265,9 @@ def test_a_number_that_is_wrong_in_several_places_and_arrays_of_other_shapes_are
     links = "lamp -> front, front.transmitted -> back, back.transmitted -> eye"
     path = wired(faces | {"lamp": op.Source(), "eye": op.Detector()}, links)
     for give in (path.trace, path.bind):
-        with pytest.raises(op.ParameterError, match=r"^parameter 'n' \(at front.index\)") as error:
+        with pytest.raises(
+            op.errors.ParameterError, match=r"^parameter 'n' \(at front.index\)"
+        ) as error:
             give(n=-0.2)
         assert len(error.value.faults) == 1
     text = fault(NPGR026.bind(delta=np.zeros(3)).trace, rho=np.zeros(4))

@@ -180,7 +180,7 @@ def test_a_plain_number_beyond_a_whole_turn_is_warned_of(action, what):
 
 def test_a_warning_is_of_the_line_of_who_wrote_it_and_told_once_of_each_line():
     for action in (lambda: op.Polarizer(45), lambda: TURN.trace(t=45)):
-        with pytest.warns(op.AngleWarning) as told:
+        with pytest.warns(op.errors.AngleWarning) as told:
             action()
         assert told[0].filename == __file__
     with warnings.catch_warnings(record=True) as told:
@@ -284,7 +284,7 @@ def test_what_are_no_plain_degrees_or_become_radians_in_the_path_is_offered_no_u
     refused += [(NPGR026.trace, {"delta": delta}) for delta in ("100 deg", np.radians(100.0), 1.6)]
     path = chain([op.Rotator(op.Parameter("d", maximum=80) * (np.pi / 180))])
     for give, values in [*refused, (path.trace, {"d": 85}), (path.bind, {"d": 85})]:
-        with pytest.raises(op.ParameterError) as error:
+        with pytest.raises(op.errors.ParameterError) as error:
             give(**values)
         assert "plain numbers" not in str(error.value)
         assert "d" not in values or str(error.value).endswith("range; give 80 or less")

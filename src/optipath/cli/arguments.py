@@ -11,7 +11,9 @@ import click
 import numpy as np
 
 from optipath.cli.options import flag
-from optipath.errors import OptipathError, ParameterError, shown, told_as
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import shown
+from optipath.raising import told_as
 from optipath.values.files import message_of, write_file
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength

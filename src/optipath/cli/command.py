@@ -20,18 +20,15 @@ from optipath.cli.interruption import INTERRUPTED, stop
 from optipath.cli.options import WholeHelp, unknown_option
 from optipath.errors import (
     AngleWarning,
-    Fault,
     LoopWarning,
     MeshWarning,
     OptipathError,
     PathError,
     PhotonWarning,
     StoreWarning,
-    did_you_mean,
-    needing,
-    printable,
-    shown,
 )
+from optipath.faults import Fault, did_you_mean, printable, shown
+from optipath.raising import needing
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

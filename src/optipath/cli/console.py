@@ -15,7 +15,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, Ti
 from rich.table import Column, Table
 from rich.text import Text
 
-from optipath.errors import printable
+from optipath.faults import printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

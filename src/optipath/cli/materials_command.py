@@ -20,12 +20,14 @@ from optipath.cli.console import (
 )
 from optipath.cli.options import StrictCommand, completed_by, given_options
 from optipath.elements.fresnel import effective_index, fresnel_reflection
-from optipath.errors import MaterialError, collecting, did_you_mean, listed
+from optipath.errors import MaterialError
+from optipath.faults import did_you_mean, listed
 from optipath.materials.database import described, known_spans, pages_with
 from optipath.materials.database_names import CURATED, VACUUM, alike, catalog_pages
 from optipath.materials.material import Material
 from optipath.materials.quantities import INCIDENCE as INCIDENCE_DOMAIN
 from optipath.materials.quantities import plain
+from optipath.raising import collecting
 from optipath.values.curve import WavelengthRange, span_text
 from optipath.values.curve_value import CurveValue
 from optipath.values.units import format_quantity, in_unit, parse_quantity

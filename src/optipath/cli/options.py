@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from click.core import ParameterSource
 
-from optipath.errors import did_you_mean
+from optipath.faults import did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

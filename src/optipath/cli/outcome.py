@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.cli.console import PlainConsole, cell, headed, title
-from optipath.errors import listed
+from optipath.faults import listed
 from optipath.light.quantities import PRINTED, Numbers
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import AMPLITUDE, plain

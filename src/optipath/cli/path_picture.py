@@ -14,7 +14,7 @@ import networkx as nx
 from rich.cells import cell_len, chop_cells
 
 from optipath.composer.wiring import Wiring
-from optipath.errors import printable
+from optipath.faults import printable
 from optipath.paths.drawing import draw, element_values, value_text
 
 if TYPE_CHECKING:

@@ -13,9 +13,11 @@ from optipath.cli.arguments import NEW_FILE, array_faults, check_place
 from optipath.cli.console import say
 from optipath.cli.options import flag, parameter_name
 from optipath.cli.preset_command import READS, PresetGroup
-from optipath.errors import ParameterError, collecting, did_you_mean, listed, shown, unknown
+from optipath.errors import ParameterError
+from optipath.faults import did_you_mean, listed, shown, unknown
 from optipath.materials.named_materials import WAVELENGTH, materials_among
 from optipath.paths.files.presets import preset_of_case
+from optipath.raising import collecting
 from optipath.values.files import check_form
 from optipath.values.units import displayed
 

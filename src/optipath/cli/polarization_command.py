@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, title
 from optipath.cli.preset_command import PresetGroup
-from optipath.errors import listed
+from optipath.faults import listed
 from optipath.materials.quantities import plain
 from optipath.paths.polarization import polarization as polarization_of
 

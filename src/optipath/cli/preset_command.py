@@ -12,17 +12,8 @@ from optipath.cli.console import JSON, say, say_json
 from optipath.cli.options import StrictCommand, WholeHelp, flag
 from optipath.composer.composer import CHOICES
 from optipath.composer.path_values import Values
-from optipath.errors import (
-    Fault,
-    OptipathError,
-    ParameterError,
-    PresetError,
-    collecting,
-    listed,
-    printable,
-    shown,
-    there_are,
-)
+from optipath.errors import OptipathError, ParameterError, PresetError
+from optipath.faults import Fault, listed, printable, shown, there_are
 from optipath.kernels.catalog import METHODS
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
@@ -35,6 +26,7 @@ from optipath.materials.named_materials import (
 from optipath.materials.quantities import READINGS
 from optipath.paths.binding import from_materials
 from optipath.paths.files.presets import bound_preset, load_preset, preset_names
+from optipath.raising import collecting
 from optipath.values.cases import ALL
 from optipath.values.text import AxisValues, IdleValues
 from optipath.values.wavelength import Wavelength

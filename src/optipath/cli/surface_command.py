@@ -14,7 +14,8 @@ from optipath.cli import console
 from optipath.cli.arguments import NEW_FILE, SEED, THREADS, axis_argument, check_place, number
 from optipath.cli.console import JSON, say, say_descriptions, say_json
 from optipath.cli.options import StrictCommand, completed_by, given_options
-from optipath.errors import SurfaceError, listed, shown
+from optipath.errors import SurfaceError
+from optipath.faults import listed, shown
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.energy_shares import run_arguments

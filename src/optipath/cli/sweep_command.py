@@ -24,8 +24,10 @@ from optipath.cli.outcome import (
 )
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError, collecting, listed, shown
+from optipath.errors import ParameterError
+from optipath.faults import listed, shown
 from optipath.light.quantities import PRINTED, Numbers
+from optipath.raising import collecting
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.datasets import csv_parts
 from optipath.values.columns import columns_of

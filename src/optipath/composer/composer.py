@@ -27,9 +27,11 @@ from optipath.composer.wiring import (
 )
 from optipath.engines.choice import ENGINES, REGISTRY, is_installed
 from optipath.engines.program import MODELS
-from optipath.errors import ComposerError, Cure, Fault, PathError, collecting, shown, unknown
+from optipath.errors import ComposerError, PathError
+from optipath.faults import Cure, Fault, shown, unknown
 from optipath.kernels.catalog import METHODS
 from optipath.plan.plan import Plan
+from optipath.raising import collecting
 from optipath.values.operands import Operand
 from optipath.values.precision import precision_name, whole_number
 

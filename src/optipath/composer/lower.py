@@ -10,7 +10,8 @@ from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at, vertex_frame
 from optipath.composer.wiring import link_text
 from optipath.engines.program import Reading
-from optipath.errors import ComposerError, listed
+from optipath.errors import ComposerError
+from optipath.faults import listed
 from optipath.kernels.catalog import RESPONSE
 from optipath.light.frame import Frame
 from optipath.values.operands import Operand, Operation, ResultOf, operand_of

@@ -14,7 +14,7 @@ from optipath.composer.path_values import FOLLOWING
 from optipath.composer.wiring import Wiring
 from optipath.elements.boundary import BoundaryElement, world_angles
 from optipath.elements.boundary_media import MediaOfBoundary, arriving_waves
-from optipath.errors import Cure, Fault
+from optipath.faults import Cure, Fault
 from optipath.kernels.fresnel.boundary import phase_index
 from optipath.kernels.primitives import of_module
 from optipath.materials.index_domains import FOLLOWS

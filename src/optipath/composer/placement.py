@@ -8,7 +8,8 @@ import numpy as np
 
 from optipath.composer.wiring import link_text
 from optipath.elements.frame_checks import azimuth_at
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
+from optipath.faults import shown
 from optipath.kernels.catalog import PLAIN_TURN, TURN
 from optipath.light.frame import Frame
 from optipath.values.arrays import broadcast_fault

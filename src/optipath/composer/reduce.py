@@ -12,7 +12,8 @@ import numpy as np
 
 from optipath.composer.builder import Item, along_chains, label_of
 from optipath.engines.program import MODELS, Reduction, Result, Tolerance
-from optipath.errors import ComposerError, listed
+from optipath.errors import ComposerError
+from optipath.faults import listed
 from optipath.kernels.carriers.structures import BLOCK, DEPOLARIZING_BLOCK, FULL, ROTATION, SCALE
 from optipath.kernels.catalog import (
     ATTENUATOR,

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import networkx as nx
 
 from optipath.elements.own_element import OwnWays, couplings_of, own_ways
-from optipath.errors import Cure, Fault, listed
+from optipath.faults import Cure, Fault, listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

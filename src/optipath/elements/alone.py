@@ -10,7 +10,8 @@ import numpy as np
 from optipath.elements.boundary_media import MediaOfBoundary, arriving_waves
 from optipath.elements.frame_checks import azimuth_at
 from optipath.elements.own_element import couplings_of, own_ways
-from optipath.errors import PathError, shown
+from optipath.errors import PathError
+from optipath.faults import shown
 from optipath.kernels.catalog import REFLECTION
 from optipath.light.frame import Frame
 from optipath.light.mueller import Mueller

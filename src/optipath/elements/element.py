@@ -16,7 +16,8 @@ from optipath.elements.own_element import (
     rows_kernel,
     same_value,
 )
-from optipath.errors import LightError, OptipathError, PathError, shown, unknown
+from optipath.errors import LightError, OptipathError, PathError
+from optipath.faults import shown, unknown
 from optipath.kernels.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
 from optipath.light.array_axes import why_refused
 from optipath.light.light import Light

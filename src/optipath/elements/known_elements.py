@@ -17,7 +17,8 @@ from optipath.elements import (  # noqa: F401
     vertices,
 )
 from optipath.elements.coupling import KINDS
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import PathError
+from optipath.faults import did_you_mean
 
 
 def element_class(kind: str) -> type[Any]:

@@ -12,7 +12,8 @@ from optipath.elements.alone import checked_alone, turned_alone
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.boundary_media import along_normal
 from optipath.elements.coupling import numbers_of, vanishes
-from optipath.errors import CoherenceWarning, PathError, shown
+from optipath.errors import CoherenceWarning, PathError
+from optipath.faults import shown
 from optipath.kernels.catalog import stack
 from optipath.kernels.fresnel.layers import attenuation
 from optipath.kernels.fresnel.stable import interference

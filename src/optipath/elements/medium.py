@@ -11,7 +11,7 @@ import numpy as np
 from optipath.elements.coupling import Coupling, largest, turned, vanishes
 from optipath.elements.element import Element
 from optipath.elements.polarizers import along_circular_axes
-from optipath.errors import ValueFault, collecting
+from optipath.errors import ValueFault
 from optipath.kernels.catalog import (
     ABSORPTION_ALONG,
     ABSORPTION_WITH_DICHROISM,
@@ -38,6 +38,7 @@ from optipath.materials.quantities import (
     OptionalAxis,
     RotatoryPower,
 )
+from optipath.raising import collecting
 from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.arrays import check_broadcast, same
 from optipath.values.domains import Domain, Refused

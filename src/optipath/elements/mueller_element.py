@@ -9,7 +9,8 @@ import numpy as np
 
 from optipath.elements.coupling import Coupling, numbers_of, value_back
 from optipath.elements.element import Element, with_values
-from optipath.errors import Cure, Fault, ValueFault
+from optipath.errors import ValueFault
+from optipath.faults import Cure, Fault
 from optipath.kernels.catalog import MATRIX
 from optipath.light.decompositions import reciprocal, tolerance_for, tolerance_of
 from optipath.light.passive import are_passive, cure_of, problem_of

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 import numpy as np
 
 from optipath.elements.coupling import Coupling, numbers_of
-from optipath.errors import PathError, ValueFault, collecting, listed, shown
+from optipath.errors import PathError, ValueFault
+from optipath.faults import listed, shown
 from optipath.kernels.carriers.structures import FULL
 from optipath.kernels.kernel import Kernel, KernelFamily, called, guarded
 from optipath.kernels.primitives import NUMPY
@@ -18,6 +19,7 @@ from optipath.light.decompositions import tolerance_of
 from optipath.light.passive import are_passive, cure_of, gain, problem_of
 from optipath.materials.index_domains import RowDomain
 from optipath.materials.quantities import REAL, YES_OR_NO
+from optipath.raising import collecting
 from optipath.values.agreement import is_single
 from optipath.values.arrays import broadcast_fault, same
 from optipath.values.domains import Domain, StokesDomain

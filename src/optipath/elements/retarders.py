@@ -9,7 +9,8 @@ import numpy as np
 
 from optipath.elements.coupling import Coupling, turned, vanishes
 from optipath.elements.element import Element
-from optipath.errors import ValueFault, listed, shown
+from optipath.errors import ValueFault
+from optipath.faults import listed, shown
 from optipath.kernels.catalog import (
     ELLIPTICAL_RETARDER,
     FARADAY_ROTATION,

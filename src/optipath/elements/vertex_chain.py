@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
 
-from optipath.errors import PathError, ValueFault, shown
+from optipath.errors import PathError, ValueFault
+from optipath.faults import shown
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import cosine, sine
 from optipath.kernels.vertex_chain import LONGEST, SHORTEST, PointsByAngles

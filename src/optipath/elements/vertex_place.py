@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.elements.vertex_chain import VerticesByAngles, of_chain, pieces_of
-from optipath.errors import FrameError, ValueFault, shown
+from optipath.errors import FrameError, ValueFault
+from optipath.faults import shown
 from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED
 from optipath.kernels.kernel import Kernel
 from optipath.kernels.primitives import NUMPY, Made, of_module

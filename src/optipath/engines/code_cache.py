@@ -13,7 +13,8 @@ from pathlib import Path
 from threading import RLock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import CacheError, shown
+from optipath.errors import CacheError
+from optipath.faults import shown
 from optipath.values.files import write_own_file
 
 if TYPE_CHECKING:

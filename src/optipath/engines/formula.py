@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 import numpy as np
 
 from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, Symbol
-from optipath.errors import missing_extra
 from optipath.kernels.trigonometry import (
     DIGITS,
     any_quadrant,
@@ -25,6 +24,7 @@ from optipath.kernels.trigonometry import (
     from_nearer_axis,
     without_rounding,
 )
+from optipath.raising import missing_extra
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

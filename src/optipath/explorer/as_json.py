@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import listed
 from optipath.explorer.paths import slider_range
+from optipath.faults import listed
 from optipath.light.quantities import QUANTITIES, LightQuantity, Numbers
 from optipath.materials.named_materials import WAVELENGTH
 from optipath.materials.quantities import plain

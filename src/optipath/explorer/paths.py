@@ -12,7 +12,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, ParameterError, unknown
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import unknown
 from optipath.materials.index_domains import OutsideDomain
 from optipath.materials.named_materials import WAVELENGTH, places_of, stands_for_index
 from optipath.paths.energy import KEEPING

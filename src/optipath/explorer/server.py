@@ -14,7 +14,8 @@ from secrets import compare_digest, token_urlsafe
 from socketserver import TCPServer
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, ParameterError, printable
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import printable
 
 if TYPE_CHECKING:
     from optipath.explorer.answers import PageAnswers

@@ -6,16 +6,8 @@ import json
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import (
-    Fault,
-    OptipathError,
-    ParameterError,
-    collecting,
-    listed,
-    printable,
-    shown,
-    unknown,
-)
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import Fault, listed, printable, shown, unknown
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     WAVELENGTH,
@@ -26,6 +18,7 @@ from optipath.materials.named_materials import (
 )
 from optipath.paths.binding import from_materials
 from optipath.paths.files.presets import beside
+from optipath.raising import collecting
 from optipath.values.parameters import unknown_parameter
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import Fault, OptipathError, ParameterError, collecting, shown, unknown
+from optipath.errors import OptipathError, ParameterError
 from optipath.explorer.as_json import (
     PRINTED,
     end_as_json,
@@ -15,12 +15,14 @@ from optipath.explorer.as_json import (
     quantity_as_json,
 )
 from optipath.explorer.state import faults_as_json, single_text
+from optipath.faults import Fault, shown, unknown
 from optipath.light.quantities import QUANTITIES
 from optipath.materials.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.materials.quantities import plain
 from optipath.paths.binding import from_materials
 from optipath.paths.energy import lights_along
 from optipath.plots.scene.layout import scene_of
+from optipath.raising import collecting
 from optipath.sweeps.datasets import heading
 from optipath.sweeps.grid import SweepGrid, sweep_axis
 from optipath.values.text import read_axis_text

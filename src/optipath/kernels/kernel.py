@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import numpy as np
 
-from optipath.errors import ComposerError, OptipathError, PathError, did_you_mean, unknown
+from optipath.errors import ComposerError, OptipathError, PathError
+from optipath.faults import did_you_mean, unknown
 from optipath.kernels.primitives import (
     FLOAT,
     NUMPY,

@@ -12,7 +12,8 @@ import numpy as np
 
 from optipath.composer.composer import CHOICES, Composer
 from optipath.engines.choice import is_installed
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
+from optipath.faults import shown
 from optipath.kernels.catalog import METHODS
 from optipath.lab.bench import processor
 from optipath.values.precision import DTYPES

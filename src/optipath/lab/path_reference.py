@@ -10,7 +10,8 @@ from optipath.composer.media import with_followed
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.wiring import Wiring
-from optipath.errors import ParameterError, PathError, shown
+from optipath.errors import ParameterError, PathError
+from optipath.faults import shown
 from optipath.lab.element_reference import matrix_of, times, turn
 from optipath.lab.many_digits import DIGITS, MANY_DIGITS, WORKING_DIGITS, Reader, exactly, mpmath
 from optipath.paths.path_graph import PathGraph

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.elements.interface import Interface
-from optipath.errors import OptipathError, unknown
+from optipath.errors import OptipathError
+from optipath.faults import unknown
 from optipath.materials.index_domains import FOLLOWS
 
 if TYPE_CHECKING:

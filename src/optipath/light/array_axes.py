@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
 
 import numpy as np
 
-from optipath.errors import IndexFault, LightError, ParameterError, ShapeError, shown
+from optipath.errors import IndexFault, LightError, ParameterError, ShapeError
+from optipath.faults import shown
 from optipath.values.arrays import as_argument, locked
 from optipath.values.jax_values import is_traced, known, namespace
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ColourWarning, LightError, ValueFault, shown, unknown
+from optipath.errors import ColourWarning, LightError, ValueFault
+from optipath.faults import shown, unknown
 from optipath.light.integration import spectral_axis, weighted_sum
 from optipath.light.light import Light
 from optipath.materials.illuminants import LUMENS_PER_WATT, NANOMETRES, Observer, observer_called

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import ValueFault, did_you_mean, shown, unknown
+from optipath.errors import ValueFault
+from optipath.faults import did_you_mean, shown, unknown
 from optipath.values.jax_values import known, namespace
 
 if TYPE_CHECKING:

@@ -24,7 +24,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, shown
+from optipath.errors import ValueFault
+from optipath.faults import shown
 from optipath.kernels.carriers.structures import FROM_MUELLER, TO_MUELLER
 from optipath.light.polarization_state import norm
 from optipath.values.jax_values import check_known, known

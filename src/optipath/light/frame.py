@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import FrameError, ShapeError, shown
+from optipath.errors import FrameError, ShapeError
+from optipath.faults import shown
 from optipath.kernels.catalog import ALIGN
 from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.primitives import NUMPY

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import LightError, ShapeError, ValueFault, listed
+from optipath.errors import LightError, ShapeError, ValueFault
+from optipath.faults import listed
 from optipath.light.on_demand import rounding
 from optipath.materials.illuminants import NANOMETRES, grid_fault, grid_widths
 from optipath.materials.spectrum import check_response

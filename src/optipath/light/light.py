@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self
 
 import numpy as np
 
-from optipath.errors import FrameError, LightError, ParameterError, shown, unknown
+from optipath.errors import FrameError, LightError, ParameterError
+from optipath.faults import shown, unknown
 from optipath.light.array_axes import (
     OPERATORS,
     TAKES_NUMBERS,

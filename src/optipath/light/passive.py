@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import LightError, shown
+from optipath.errors import LightError
+from optipath.faults import shown
 from optipath.kernels.carriers.structures import is_physical
 from optipath.kernels.primitives import FLOAT, NUMPY
 from optipath.light import decompositions

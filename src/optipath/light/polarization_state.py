@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, shown
+from optipath.errors import ValueFault
+from optipath.faults import shown
 from optipath.kernels.carriers.structures import turn_linear
 from optipath.values.arrays import first_place
 from optipath.values.domains import can_be_light

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import ValueFault, did_you_mean, shown
+from optipath.errors import ValueFault
+from optipath.faults import did_you_mean, shown
 from optipath.kernels.dispersion import index_of_square, sellmeier_square
 from optipath.materials.by_wavelength import drude_rotation
 from optipath.materials.formulas import MICROMETRES, Sellmeier

@@ -7,7 +7,8 @@ from decimal import Decimal, InvalidOperation
 from html import unescape
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import Fault, MaterialError, OptipathError, collecting, shown, unknown
+from optipath.errors import MaterialError, OptipathError
+from optipath.faults import Fault, shown, unknown
 from optipath.materials.database_names import (
     CURATED,
     VACUUM,
@@ -19,6 +20,7 @@ from optipath.materials.database_names import (
 )
 from optipath.materials.formulas import NEAREST_REQUESTED, DispersionFormula
 from optipath.materials.tables import EXTRAPOLATIONS, INTERPOLATIONS, PageCurve, Tabulated
+from optipath.raising import collecting
 from optipath.values.curve import span_text
 from optipath.values.curve_value import curve_at
 from optipath.values.files import input_file

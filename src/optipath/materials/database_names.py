@@ -9,7 +9,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from optipath.errors import MaterialError, closest, need, needing, shown
+from optipath.errors import MaterialError
+from optipath.faults import closest, shown
+from optipath.raising import need, needing
 from optipath.values.files import bytes_of
 
 VACUUM = "vacuum"

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from optipath.errors import ValueFault, collecting, listed, shown
+from optipath.errors import ValueFault
+from optipath.faults import listed, shown
 from optipath.kernels.dispersion import (
     DATABASE_FORMULAS,
     cauchy_index,
@@ -19,6 +20,7 @@ from optipath.kernels.dispersion import (
     sellmeier_square,
     tauc_lorentz_permittivity,
 )
+from optipath.raising import collecting
 from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.curve import Curve
 from optipath.values.domains import Domain

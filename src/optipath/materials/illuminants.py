@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, unknown
+from optipath.errors import ValueFault
+from optipath.faults import unknown
 from optipath.materials.tables import Tabulated
 from optipath.values.jax_values import is_traced, namespace
 

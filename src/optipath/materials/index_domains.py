@@ -9,7 +9,8 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import Cure, Fault, UnitError, ValueFault, closest, shown
+from optipath.errors import UnitError, ValueFault
+from optipath.faults import Cure, Fault, closest, shown
 from optipath.materials.material import K, Material, RealPart, index_of
 from optipath.values.arrays import read_only
 from optipath.values.domains import LEAST, Domain, in_unit_of

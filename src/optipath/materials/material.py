@@ -7,18 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from optipath.errors import (
-    Cure,
-    Fault,
-    ParameterError,
-    UnitError,
-    ValueFault,
-    shown,
-    told_as,
-)
+from optipath.errors import ParameterError, UnitError, ValueFault
+from optipath.faults import Cure, Fault, shown
 from optipath.materials.database import parts_by_name, parts_of_file
 from optipath.materials.formulas import EVERYWHERE, Cauchy, DrudeLorentz, Sellmeier, TaucLorentz
 from optipath.materials.tables import Tabulated
+from optipath.raising import told_as
 from optipath.values.arrays import as_argument, broadcast_fault, same, same_fields
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve, span_text

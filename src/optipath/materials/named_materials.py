@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import Fault, ParameterError, UnitError, listed, shown, told_as
+from optipath.errors import ParameterError, UnitError
+from optipath.faults import Fault, listed, shown
 from optipath.materials.database_names import VACUUM
 from optipath.materials.material import Material
 from optipath.materials.quantities import plain
+from optipath.raising import told_as
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values, parameters_among
 from optipath.values.parameters import Parameter

@@ -11,7 +11,8 @@ from typing import Annotated, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import Cure, Fault, OptipathError, UnitError, ValueFault, closest, shown
+from optipath.errors import OptipathError, UnitError, ValueFault
+from optipath.faults import Cure, Fault, closest, shown
 from optipath.materials.illuminants import ILLUMINANTS
 from optipath.materials.index_domains import (
     CLEAR,

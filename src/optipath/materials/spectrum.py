@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from optipath.errors import ValueFault, listed, shown, told_as, unknown
+from optipath.errors import ValueFault
+from optipath.faults import listed, shown, unknown
 from optipath.materials.quantities import NON_NEGATIVE
 from optipath.materials.spectrum_kinds import (
     PLACES,
@@ -37,6 +38,7 @@ from optipath.materials.spectrum_kinds import (
     values_at,
     whole_power,
 )
+from optipath.raising import told_as
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve
 from optipath.values.curve_value import curve_values

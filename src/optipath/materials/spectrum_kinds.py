@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from optipath.errors import ParameterError, ValueFault, shown, unknown
+from optipath.errors import ParameterError, ValueFault
+from optipath.faults import shown, unknown
 from optipath.materials.illuminants import (
     DAYLIGHT,
     ILLUMINANTS,

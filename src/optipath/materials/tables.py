@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, collecting, unknown
+from optipath.errors import ValueFault
+from optipath.faults import unknown
+from optipath.raising import collecting
 from optipath.values.arrays import locked
 from optipath.values.curve import Curve, span_text
 from optipath.values.domains import Domain

@@ -10,16 +10,8 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer.path_values import Values
 from optipath.composer.placement import goes_straight
 from optipath.composer.wiring import Wiring
-from optipath.errors import (
-    Fault,
-    OptipathError,
-    ParameterError,
-    PathError,
-    collecting,
-    shown,
-    told_as,
-    unknown,
-)
+from optipath.errors import OptipathError, ParameterError, PathError
+from optipath.faults import Fault, shown, unknown
 from optipath.materials.material import Material
 from optipath.materials.named_materials import (
     extinctions_with,
@@ -38,6 +30,7 @@ from optipath.paths.editing import (
     turns_to,
 )
 from optipath.plan.inputs import Inputs
+from optipath.raising import collecting, told_as
 from optipath.values.arrays import changed, same
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values

@@ -11,7 +11,8 @@ from optipath.elements.ends import Detector, Source
 from optipath.elements.vertex_chain import of_chain, pieces_of
 from optipath.elements.vertex_place import deviation, off_normals
 from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
-from optipath.errors import ValueFault, shown
+from optipath.errors import ValueFault
+from optipath.faults import shown
 from optipath.kernels.catalog import REFRACTION
 from optipath.kernels.primitives import NUMPY
 from optipath.kernels.vertex_chain import Event

@@ -21,17 +21,11 @@ from optipath.composer.placement import (
 from optipath.composer.wiring import LOOPS, Wiring, link_text
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import azimuth_at
-from optipath.errors import (
-    OptipathError,
-    PathError,
-    collecting,
-    did_you_mean,
-    listed,
-    shown,
-    there_are,
-)
+from optipath.errors import OptipathError, PathError
+from optipath.faults import did_you_mean, listed, shown, there_are
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
+from optipath.raising import collecting
 from optipath.values.arrays import changed, joint_shape, read_only, same
 from optipath.values.parameters import Parameter
 from optipath.values.use import stored_value

@@ -14,19 +14,13 @@ from optipath.composer.path_values import Values
 from optipath.composer.wiring import KEEPABLE, LOOPS
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
-from optipath.errors import (
-    ComposerError,
-    ParameterError,
-    PathError,
-    check_named,
-    needing,
-    shown,
-    unknown,
-)
+from optipath.errors import ComposerError, ParameterError, PathError
+from optipath.faults import shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
 from optipath.paths.reversed import reversed_graph
+from optipath.raising import check_named, needing
 from optipath.values.arrays import entries_of, same
 from optipath.values.cases import Case
 

@@ -17,7 +17,8 @@ from optipath.elements.boundary import BoundaryElement
 from optipath.elements.coupling import vanishes
 from optipath.elements.element import Element
 from optipath.elements.ends import Detector, Dump, Source
-from optipath.errors import OptipathError, PathError, did_you_mean, listed, shown, there_are
+from optipath.errors import OptipathError, PathError
+from optipath.faults import did_you_mean, listed, shown, there_are
 from optipath.kernels.kernel import called
 from optipath.paths.editing import find_port
 from optipath.values.arrays import changed, same

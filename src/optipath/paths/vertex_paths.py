@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.vertex_chain import BAD, VERTICES, VerticesByAngles, counted, legs_fit
-from optipath.errors import PathError, ValueFault, shown, told_as, unknown
+from optipath.errors import PathError, ValueFault
+from optipath.faults import shown, unknown
 from optipath.materials.index_domains import OUTSIDE
 from optipath.paths.chains import (
     Histories,
@@ -17,6 +18,7 @@ from optipath.paths.chains import (
     path_of_chains,
     refuse_doubtful,
 )
+from optipath.raising import told_as
 from optipath.values.arrays import as_argument, entries_of
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter

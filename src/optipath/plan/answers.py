@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, did_you_mean, shown
+from optipath.errors import ParameterError
+from optipath.faults import did_you_mean, shown
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.plan.noise import NoiseInterpreter, noise_at

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, ValueFault, collecting
+from optipath.errors import ParameterError, ValueFault
 from optipath.kernels.carriers.intensities import Boosts, boosted, largest_error, ratio_bounds
 from optipath.kernels.primitives import NUMPY
 from optipath.light.polarization_state import underflows
+from optipath.raising import collecting
 from optipath.values.arrays import check_broadcast, entries_of, same_fields
 from optipath.values.domains import Domain
 

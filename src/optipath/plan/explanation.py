@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.choice import LARGE
-from optipath.errors import ParameterError, listed
+from optipath.errors import ParameterError
+from optipath.faults import listed
 from optipath.kernels.carriers.carrier import StokesCarrier
 from optipath.kernels.carriers.structures import FULL, ROTATION
 from optipath.plan.runnable import LONGEST

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, listed
+from optipath.errors import ParameterError
+from optipath.faults import listed
 from optipath.kernels.primitives import NUMPY
 from optipath.values.units import in_unit
 

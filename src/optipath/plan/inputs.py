@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import Fault, OptipathError, ParameterError, no_value
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import Fault, no_value
 from optipath.materials.named_materials import of_complex, passed_too_late
 from optipath.values.agreement import first_faults
 from optipath.values.angles import TURN, warn_of_degrees

@@ -8,12 +8,13 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Never
 
 from optipath.engines.choice import LARGE
-from optipath.errors import ParameterError, check_named
+from optipath.errors import ParameterError
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.mueller import Mueller
 from optipath.plan.answers import Answers, LaterWavelength, by_place, only
 from optipath.plan.noise import matrix_noise_at, noise_at
+from optipath.raising import check_named
 from optipath.values.arrays import MOST_PATHS
 from optipath.values.precision import whole_number
 

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
+from optipath.faults import shown
 from optipath.plots.colors import LINES
 from optipath.plots.text import missing_letters_as_boxes
 from optipath.values.files import input_file, message_of, write_picture

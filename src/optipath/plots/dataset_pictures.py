@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, listed, unknown
+from optipath.errors import OptipathError
+from optipath.faults import listed, unknown
 from optipath.light.light import Light
 from optipath.plots.axes import own_axes
 from optipath.plots.light_at_detector import AlongAxis, drawn_quantities, drawn_quantity

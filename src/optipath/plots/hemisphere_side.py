@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import SurfaceError, listed, shown, unknown
+from optipath.errors import SurfaceError
+from optipath.faults import listed, shown, unknown
 from optipath.plots.colors import ColourScale
 from optipath.surfaces.hemisphere.beam import SIDES
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere

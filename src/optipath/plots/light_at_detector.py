@@ -6,15 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import (
-    Cure,
-    Fault,
-    OptipathError,
-    ParameterError,
-    listed,
-    shown,
-    unknown,
-)
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import Cure, Fault, listed, shown, unknown
 from optipath.light.quantities import QUANTITIES, LightQuantity
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.usual_range import usual_range

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, PathError, listed, shown
+from optipath.errors import OptipathError, PathError
+from optipath.faults import listed, shown
 from optipath.light.light import Light
 from optipath.paths.energy import lights_along
 from optipath.paths.path_graph import PathGraph

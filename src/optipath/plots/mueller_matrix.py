@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.patches import Patch, Rectangle
 
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
+from optipath.faults import shown
 from optipath.light.mueller import Mueller
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import HATCHED, INK, ColourScale

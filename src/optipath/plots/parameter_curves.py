@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import matplotlib as mpl
 import numpy as np
 
-from optipath.errors import OptipathError, listed
+from optipath.errors import OptipathError
+from optipath.faults import listed
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import DASHES, FAINT, INK, LINES
 from optipath.plots.light_at_detector import (

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import SurfaceError, told_as
+from optipath.errors import SurfaceError
 from optipath.light.frame import Frame
 from optipath.light.light import Light
 from optipath.light.quantities import QUANTITIES as OF_LIGHT
 from optipath.plots.axes import own_axes, positive
 from optipath.plots.colors import DASHES, LINES
 from optipath.plots.hemisphere_side import SeenSide, quantity_of
+from optipath.raising import told_as
 from optipath.surfaces.facet_model import frame_along
 from optipath.surfaces.hemisphere.hemisphere import ROUNDED
 from optipath.surfaces.walk.beam import UNPOLARISED

@@ -15,7 +15,8 @@ from matplotlib.transforms import Bbox
 from mpl_toolkits.mplot3d import Axes3D, proj3d
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
+from optipath.faults import shown
 from optipath.plots.axes import own_lines
 from optipath.plots.colors import FAINT, INK, LINES, ColourScale
 from optipath.plots.labels import Label, place_labels

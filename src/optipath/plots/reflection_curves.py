@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.elements.fresnel import fresnel_reflection
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
+from optipath.faults import shown
 from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
 from optipath.plots.axes import own_axes

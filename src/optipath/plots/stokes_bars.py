@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from optipath.errors import OptipathError, shown, unknown
+from optipath.errors import OptipathError
+from optipath.faults import shown, unknown
 from optipath.light.light import Light
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import INK, LINES

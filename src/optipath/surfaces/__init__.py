@@ -1,5 +1,5 @@
 """Rough surfaces: fields of heights, samples of such layers, and photons that walk over them."""
 
-from optipath.errors import public_names
+from optipath.public_names import public_names
 
 __getattr__, __dir__, __all__ = public_names(__name__)

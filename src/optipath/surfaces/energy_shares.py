@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import PhotonWarning, shown
+from optipath.errors import PhotonWarning
+from optipath.faults import shown
 from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import (
     BLOCK,

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.fresnel import number_within, parts_of
-from optipath.errors import SurfaceError, unknown
+from optipath.errors import SurfaceError
+from optipath.faults import unknown
 from optipath.kernels.catalog import REFLECTION
 from optipath.kernels.facets import MASKINGS, facet_scattering
 from optipath.kernels.primitives import Made

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError, shown
+from optipath.errors import SurfaceError
+from optipath.faults import shown
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.facet_model import alpha_of
 from optipath.surfaces.hemisphere.beam import SIDES, PixelMask

@@ -10,7 +10,8 @@ import numpy as np
 
 from optipath.elements.ends import Source
 from optipath.elements.interface import Interface
-from optipath.errors import SurfaceError, shown
+from optipath.errors import SurfaceError
+from optipath.faults import shown
 from optipath.kernels.carriers.carried import stokes_of
 from optipath.kernels.fresnel.boundary import lossless_boundary
 from optipath.kernels.primitives import FLOAT, NUMPY

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.errors import Cure, Fault, MeshWarning, SurfaceError, shown
+from optipath.errors import MeshWarning, SurfaceError
+from optipath.faults import Cure, Fault, shown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.values.angles import warn

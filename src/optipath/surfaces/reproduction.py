@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import MeshWarning, SurfaceError, shown, unknown
+from optipath.errors import MeshWarning, SurfaceError
+from optipath.faults import shown, unknown
 from optipath.paths.files.schema import Faults, checked_table, names_in, presets_folder
 from optipath.surfaces.energy_shares import Energy, energy
 from optipath.surfaces.hemisphere.measure import measure

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.elements.layer_stack import LayerStack
-from optipath.errors import Cure, Fault, SurfaceError, shown
+from optipath.errors import SurfaceError
+from optipath.faults import Cure, Fault, shown
 from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
 from optipath.materials.quantities import YES_OR_NO

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from optipath.errors import OptipathError, PresetError, SurfaceError, shown
+from optipath.errors import OptipathError, PresetError, SurfaceError
+from optipath.faults import shown
 from optipath.materials.index_domains import INDEX
 from optipath.paths.files.schema import (
     FORMAT,

@@ -12,18 +12,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.errors import (
-    OptipathError,
-    ParameterError,
-    closest,
-    collecting,
-    did_you_mean,
-    listed,
-    no_value,
-    shown,
-    told_as,
-)
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import closest, did_you_mean, listed, no_value, shown
 from optipath.paths.path_graph import PathGraph
+from optipath.raising import collecting, told_as
 from optipath.sweeps.datasets import DETECTOR, is_variable
 from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
 from optipath.values.angles import CosSin

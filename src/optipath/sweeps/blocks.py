@@ -27,7 +27,8 @@ import dask
 from dask.local import SynchronousExecutor
 from dask.system import CPU_COUNT
 
-from optipath.errors import JobError, OptipathError, shown, unknown
+from optipath.errors import JobError, OptipathError
+from optipath.faults import shown, unknown
 from optipath.sweeps.store import BlockStore
 
 if TYPE_CHECKING:

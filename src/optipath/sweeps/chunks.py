@@ -11,7 +11,8 @@ import numpy as np
 from dask.base import tokenize
 from dask.delayed import delayed
 
-from optipath.errors import Cure, Fault, ParameterError, shown, unknown
+from optipath.errors import ParameterError
+from optipath.faults import Cure, Fault, shown, unknown
 from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.datasets import detectors_of, regions, sweep_dataset
 from optipath.sweeps.plan_recipe import PlanRecipe

@@ -12,7 +12,8 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError, PathError, listed
+from optipath.errors import ParameterError, PathError
+from optipath.faults import listed
 from optipath.light.frame import Frame
 from optipath.light.quantities import QUANTITIES
 from optipath.plan.reading import pieces

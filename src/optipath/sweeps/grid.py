@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import Cure, Fault, ShapeError
+from optipath.errors import ShapeError
+from optipath.faults import Cure, Fault
 from optipath.values.arrays import memory
 from optipath.values.text import IdleValues
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import AngleWarning, ParameterError, listed, unknown
+from optipath.errors import AngleWarning, ParameterError
+from optipath.faults import listed, unknown
 from optipath.light.polarization_state import length
 from optipath.light.quantities import DERIVED, QUANTITIES, Shares
 from optipath.values.arrays import Unchanging, locked, same_fields

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import networkx as nx
 import numpy as np
 
-from optipath.errors import ParameterError, listed
+from optipath.errors import ParameterError
+from optipath.faults import listed
 from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.first_order import Spread
 from optipath.sweeps.light_figures import STOKES, difference, figures_of, rounding_of

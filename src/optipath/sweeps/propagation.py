@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import listed
+from optipath.faults import listed
 from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.first_order import FLAT, LARGEST
 from optipath.sweeps.light_figures import STOKES, figures_of, place_of

@@ -24,7 +24,8 @@ from fsspec.core import url_to_fs
 from zarr.errors import ContainsArrayError
 from zarr.storage import FsspecStore, LocalStore
 
-from optipath.errors import JobError, OptipathError, StoreWarning, shown
+from optipath.errors import JobError, OptipathError, StoreWarning
+from optipath.faults import shown
 from optipath.values.angles import warn
 
 if TYPE_CHECKING:

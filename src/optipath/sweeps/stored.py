@@ -19,7 +19,8 @@ import numpy as np
 import xarray as xr
 from dask.base import tokenize
 
-from optipath.errors import OptipathError, ParameterError, PathError, shown
+from optipath.errors import OptipathError, ParameterError, PathError
+from optipath.faults import shown
 from optipath.light.quantities import QUANTITIES
 from optipath.sweeps.blocks import keep_blocks
 from optipath.sweeps.chunks import chunk_sizes, run_block

@@ -8,7 +8,9 @@ import xarray as xr
 
 from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEEPABLE
-from optipath.errors import ParameterError, check_named, shown
+from optipath.errors import ParameterError
+from optipath.faults import shown
+from optipath.raising import check_named
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.memory import swept_in_memory
 

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.errors import OptipathError, ParameterError, check_named, collecting, shown, unknown
+from optipath.errors import OptipathError, ParameterError
+from optipath.faults import shown, unknown
 from optipath.materials.material import Material
 from optipath.paths.path_graph import PathGraph
 from optipath.plan.answers import only
+from optipath.raising import check_named, collecting
 from optipath.sweeps.axes import unknown_names
 from optipath.sweeps.first_order import changes_of, nonlinearity_of, slopes_of, spread_of
 from optipath.sweeps.light_figures import LightAt, UncertainValue

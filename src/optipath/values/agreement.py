@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import Fault, OptipathError
+from optipath.errors import OptipathError
+from optipath.faults import Fault
 from optipath.values.angles import CosSin
 from optipath.values.arrays import broadcast_fault, joint_shape, place_text
 from optipath.values.curve_value import CurveValue

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import AngleWarning, Cure, OptipathError, ParameterError, UnitError, shown
+from optipath.errors import AngleWarning, OptipathError, ParameterError, UnitError
+from optipath.faults import Cure, shown
 from optipath.values.arrays import (
     MOST_AXES,
     Unchanging,

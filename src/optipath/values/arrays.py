@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from optipath.errors import OptipathError, ShapeError, ValueFault, collecting, shown, told_as
+from optipath.errors import OptipathError, ShapeError, ValueFault
+from optipath.faults import shown
+from optipath.raising import collecting, told_as
 from optipath.values.jax_values import is_jax, is_traced
 from optipath.values.precision import ENDLESS, Array, doubles, within
 

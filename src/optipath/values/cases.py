@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from optipath.errors import ParameterError, shown
+from optipath.errors import ParameterError
+from optipath.faults import shown
 from optipath.values.arrays import array_of, read_only, same_fields
 from optipath.values.precision import as_doubles
 

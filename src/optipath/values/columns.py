@@ -11,15 +11,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.errors import (
-    ParameterError,
-    ValueFault,
-    collecting,
-    did_you_mean,
-    listed,
-    shown,
-    there_are,
-)
+from optipath.errors import ParameterError, ValueFault
+from optipath.faults import did_you_mean, listed, shown, there_are
+from optipath.raising import collecting
 from optipath.values.files import bytes_of, input_file
 from optipath.values.units import (
     UNITS,

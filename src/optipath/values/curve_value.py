@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
-from optipath.errors import ParameterError, ValueFault, shown
+from optipath.errors import ParameterError, ValueFault
+from optipath.faults import shown
 from optipath.values.arrays import broadcast_fault, changed, check_broadcast, place_text
 from optipath.values.curve import CurveSum, WavelengthRange, marked_name
 from optipath.values.domains import Domain, in_unit_of

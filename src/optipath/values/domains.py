@@ -9,7 +9,8 @@ from typing import Any, ClassVar, NoReturn
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import Cure, Fault, ValueFault, did_you_mean, shown
+from optipath.errors import ValueFault
+from optipath.faults import Cure, Fault, did_you_mean, shown
 from optipath.values.angles import TURN, CosSin, range_cure, refused
 from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace

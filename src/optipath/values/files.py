@@ -13,7 +13,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, ValueFault, shown
+from optipath.errors import OptipathError, ValueFault
+from optipath.faults import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

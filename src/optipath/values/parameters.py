@@ -13,17 +13,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn, Self
 
 import numpy as np
 
-from optipath.errors import (
-    Fault,
-    ParameterError,
-    UnitError,
-    ValueFault,
-    closest,
-    collecting,
-    did_you_mean,
-    shown,
-    there_are,
-)
+from optipath.errors import ParameterError, UnitError, ValueFault
+from optipath.faults import Fault, closest, did_you_mean, shown, there_are
+from optipath.raising import collecting
 from optipath.values.angles import TURN, CosSin, range_cure, refused, warn_of_degrees
 from optipath.values.arrays import (
     array_of,

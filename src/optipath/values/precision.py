@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import ComposerError, shown
+from optipath.errors import ComposerError
+from optipath.faults import shown
 from optipath.values.jax_values import is_jax, is_traced
 
 DTYPES = ("float64", "float32", "longdouble")

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import ParameterError, UnitError, collecting, shown, told_as
+from optipath.errors import ParameterError, UnitError
+from optipath.faults import shown
+from optipath.raising import collecting, told_as
 from optipath.values.columns import column_for
 from optipath.values.parameters import ABSENT, AXES
 from optipath.values.units import (

@@ -10,7 +10,8 @@ import re
 from decimal import Decimal
 from typing import NamedTuple
 
-from optipath.errors import UnitError, did_you_mean, shown
+from optipath.errors import UnitError
+from optipath.faults import did_you_mean, shown
 
 # Written so that no text matches in two ways, and long ones take no longer than they are.
 NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"

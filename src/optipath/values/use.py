@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, ValueFault, collecting, having
+from optipath.errors import OptipathError, ParameterError, ValueFault
+from optipath.raising import collecting, having
 from optipath.values.angles import TURN, warn_of_degrees
 from optipath.values.arrays import as_argument
 from optipath.values.curve_value import CurveValue, check_computed, takes_0_alone

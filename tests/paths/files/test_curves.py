@@ -146,10 +146,12 @@ def test_numbers_by_wavelength_may_be_multiples_with_a_unit_but_no_states(read, 
     assert "elements.plate.retardance.values[0]: 3 has no unit" in found
     assert "'3 deg'" in found
     state = 'kind = "source", stokes = { cauchy = { coefficients = [1.5] } }'
-    with pytest.raises(op.PathError, match="'cauchy' gives one number, but several are asked for"):
+    with pytest.raises(
+        op.errors.PathError, match="'cauchy' gives one number, but several are asked for"
+    ):
         loaded(text_of().replace('kind = "source"', state), tmp_path)
     paint = op.Material.cauchy([1.5], wavelength=op.Wavelength(default=GREEN))
-    with pytest.raises(op.ValueFault, match=r"must have shape \(..., 4\)"):
+    with pytest.raises(op.errors.ValueFault, match=r"must have shape \(..., 4\)"):
         op.Source(stokes=paint.n)
 
 
@@ -161,7 +163,7 @@ def test_a_wavelength_is_that_of_all_materials_whether_it_is_declared_or_not(rea
     assert path.trace() == path.trace(wavelength="2.4 eV")
     assert read_back(path, tmp_path) == path
     path = read(f'{{ {SAMPLES}, extrapolate = "nearest" }}', parameters=WAVELENGTH)
-    with pytest.raises(op.ParameterError, match="for nanometres write '516 nm'"):
+    with pytest.raises(op.errors.ParameterError, match="for nanometres write '516 nm'"):
         path.trace(wavelength=516.0)
     case = '\n[cases.green]\nvalues = { wavelength = "2.4 eV" }\n'
     text = text_of(f"{{ {SAMPLES} }}") + case

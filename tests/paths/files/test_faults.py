@@ -312,8 +312,8 @@ def test_a_cure_can_be_written_into_the_file(text, cure, tmp_path):
 def test_a_case_that_nobody_could_ask_for_is_not_written(name, told):
     path = read(tomllib.loads(GOOD))
     path.cases[name] = path.cases["steep"]
-    with pytest.raises(op.PathError, match=told):
+    with pytest.raises(op.errors.PathError, match=told):
         path.to_toml()
     path.cases = {"odd": op.Case({"thta": 0.1})}
-    with pytest.raises(op.PathError, match=r"case 'odd'.*did you mean 'theta'"):
+    with pytest.raises(op.errors.PathError, match=r"case 'odd'.*did you mean 'theta'"):
         path.to_toml()

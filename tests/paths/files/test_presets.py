@@ -147,7 +147,7 @@ def test_values_take_precedence_over_a_case_and_stay_open_or_are_bound():
     path = op.load_preset("npgr026", case=8, delta=0.5)
     assert [name for name, p in path.parameters.items() if p.bound] == ["delta"]
     for give, cure in ((path.trace, "leave it out of load_preset"), (path.bind, "leave it open")):
-        with pytest.raises(op.ParameterError, match=rf"'delta' is bound.*{cure}"):
+        with pytest.raises(op.errors.ParameterError, match=rf"'delta' is bound.*{cure}"):
             give(delta=0.1)
     path = op.load_preset("npgr026", case=7)
     assert path == op.load_preset("npgr026", case="7")
@@ -173,7 +173,7 @@ def test_values_take_precedence_over_a_case_and_stay_open_or_are_bound():
 )
 def test_presets_cases_and_values_that_do_not_exist_are_refused(load, sentence):
     values = callable(load) and "crossed" not in sentence
-    with pytest.raises(op.ParameterError if values else op.PresetError) as caught:
+    with pytest.raises(op.errors.ParameterError if values else op.errors.PresetError) as caught:
         load() if callable(load) else op.load_preset(load)
     assert sentence in str(caught.value)
 
@@ -198,7 +198,9 @@ def test_folders_and_files_that_are_no_presets_are_refused(content, message, tmp
             handle.truncate(content)
     else:
         file.write_bytes(content)
-    with pytest.raises(op.PathError if "3,001" in message else op.OptipathError, match=message):
+    with pytest.raises(
+        op.errors.PathError if "3,001" in message else op.OptipathError, match=message
+    ):
         op.load_preset(file)
 
 
@@ -380,5 +382,5 @@ def test_a_spectrum_of_copper_and_gold_is_that_of_its_samples_at_energies_within
     path = op.load_preset("lyot-filter")
     energy, metres = path.trace(wavelength=["2.4 eV", 1.2398419843320026e-6 / 2.4]).intensity
     assert energy == pytest.approx(metres, abs=1e-12)
-    with pytest.raises(op.ParameterError, match=r"give 200 nm \.\. 2000 nm"):
+    with pytest.raises(op.errors.ParameterError, match=r"give 200 nm \.\. 2000 nm"):
         path.trace(wavelength="100 nm")

@@ -35,7 +35,7 @@ def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(f
     assert file_of(own, "film", folder, "a look") == file_of(str(own), "film", folder, "") == own
     (folder / "thin.toml").write_bytes(b"\xef\xbb\xbfa = 1")
     assert text_of(folder / "thin.toml", "film") == "a = 1"
-    with pytest.raises(op.PresetError, match="cannot be read: it is no file"):
+    with pytest.raises(op.errors.PresetError, match="cannot be read: it is no file"):
         text_of(folder / "more", "film")
     for given, sentence in (
         ("thinn", "film 'thinn' is unknown; did you mean 'thin'?"),
@@ -43,7 +43,7 @@ def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(f
         ("../thin", "'../thin' is neither the name of a film (a-z, 0-9 and -) nor the path "),
         (None, "a film is a name or the path of a file, not None"),
     ):
-        with pytest.raises(op.PresetError) as error:
+        with pytest.raises(op.errors.PresetError) as error:
             file_of(given, "film", folder, "a look")
         assert str(error.value).startswith(sentence)
 
@@ -63,7 +63,7 @@ SLIPS = [
 def test_a_slip_is_told_with_its_line(tmp_path, text, message):
     file = tmp_path / "slip.toml"
     file.write_text("format = 1\n" + text + "\n")
-    with pytest.raises(op.PresetError, match=message):
+    with pytest.raises(op.errors.PresetError, match=message):
         op.load_preset(file)
 
 
@@ -181,7 +181,7 @@ def test_every_sequence_of_bytes_is_read_or_refused_soon(tmp_path):
             op.load_preset(file)
     document = {"format": 1, "elements": {f"abc{n}": {"kind": "dump"} for n in range(1500)}}
     document["links"] = [{"from": f"abd{n}.out", "to": f"abd{n}.in"} for n in range(1500)]
-    with pytest.raises(op.PathError) as error:
+    with pytest.raises(op.errors.PathError) as error:
         load(document, tmp_path)
     assert 20 < len(error.value.faults) < 200
 

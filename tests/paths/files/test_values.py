@@ -17,9 +17,9 @@ from wired import read_back, wired
 class OddlyNamed(op.Element, kind="oddly-named"):
     """A filter whose fields are called like what functions of the library take."""
 
-    left: op.Fraction
-    what: op.Fraction = 1.0
-    function: op.Fraction = 1.0
+    left: op.fields.Fraction
+    what: op.fields.Fraction = 1.0
+    function: op.fields.Fraction = 1.0
 
     @staticmethod
     def mueller_rows(xp, left, what, function):
@@ -101,7 +101,7 @@ def test_amplitudes_links_and_cases_take_numbers_without_a_part_multiples_and_ax
 def test_a_pair_of_numbers_for_an_index_is_refused(tmp_path):
     given = chain([op.Interface(1.5, 0.3)]).to_toml().replace("index = 1.5", "index = PAIR")
     with pytest.raises(
-        op.PathError, match=r"write \{ n = 0\.17, k = 3\.15 \} for one index, \{ n ="
+        op.errors.PathError, match=r"write \{ n = 0\.17, k = 3\.15 \} for one index, \{ n ="
     ):
         loaded(given.replace("PAIR", "[0.17, 3.15]"), tmp_path)
     one = loaded(given.replace("PAIR", "{ n = 0.17, k = 3.15 }"), tmp_path).trace()

@@ -5,7 +5,8 @@ from __future__ import annotations
 from numbers import Integral
 from typing import TYPE_CHECKING, Any, Never
 
-from optipath.errors import ParameterError, PresetError, closest, shown, there_are
+from optipath.errors import ParameterError, PresetError
+from optipath.faults import closest, shown, there_are
 from optipath.paths.files.schema import file_of, names_in, parsed, presets_folder, text_of
 
 if TYPE_CHECKING:

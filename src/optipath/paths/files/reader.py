@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from optipath.composer.composer import checked
 from optipath.composer.wiring import LOOPS
 from optipath.elements.known_elements import element_class
-from optipath.errors import Fault, OptipathError, PathError, PresetError, did_you_mean, shown
+from optipath.errors import OptipathError, PathError, PresetError
+from optipath.faults import Fault, did_you_mean, shown
 from optipath.kernels.kernel import called
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE

@@ -9,15 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
-from optipath.errors import (
-    Fault,
-    OptipathError,
-    PresetError,
-    UnitError,
-    did_you_mean,
-    listed,
-    shown,
-)
+from optipath.errors import OptipathError, PresetError, UnitError
+from optipath.faults import Fault, did_you_mean, listed, shown
 from optipath.values.units import dimension_of, parse_quantity, with_article
 
 if TYPE_CHECKING:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import PresetError, UnitError, shown
+from optipath.errors import PresetError, UnitError
+from optipath.faults import shown
 from optipath.materials.material import K, N
 from optipath.materials.quantities import spectrum_meant
 from optipath.materials.spectrum import Spectrum

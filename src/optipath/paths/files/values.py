@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.vertex_chain import VerticesByAngles, VerticesDomain
-from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
+from optipath.errors import OptipathError, PresetError, UnitError
+from optipath.faults import did_you_mean, shown
 from optipath.materials.crystals import CRYSTALS, Crystal
 from optipath.materials.formulas import (
     EVERYWHERE,

@@ -11,7 +11,8 @@ import numpy as np
 
 from optipath.composer.path_values import Values
 from optipath.composer.wiring import LOOPS
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import PathError
+from optipath.faults import did_you_mean
 from optipath.materials.index_domains import INDEX, IndexDomain
 from optipath.materials.quantities import ANGLE
 from optipath.paths.binding import choice_faults

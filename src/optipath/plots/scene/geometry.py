@@ -10,7 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Polygon
 from matplotlib.transforms import Bbox
 
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError
+from optipath.faults import shown
 from optipath.plots.axes import own_axes
 from optipath.plots.colors import FAINT, INK, LINES
 from optipath.plots.labels import Label, place_labels

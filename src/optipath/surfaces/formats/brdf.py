@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError, shown
+from optipath.errors import SurfaceError
+from optipath.faults import shown
 from optipath.light.frame import Frame
 from optipath.light.mueller import Mueller
 from optipath.surfaces.facet_model import frame_along

@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 
-from optipath.errors import OptipathError, SurfaceError, need, needing, shown
+from optipath.errors import OptipathError, SurfaceError
+from optipath.faults import shown
+from optipath.raising import need, needing
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.beam import (
     NUMBERS,

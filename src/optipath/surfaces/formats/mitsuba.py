@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError, shown
+from optipath.errors import SurfaceError
+from optipath.faults import shown
 from optipath.light.conventions import changed_matrix
 from optipath.light.mueller import Mueller
 from optipath.paths.files.schema import Faults

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError, shown
+from optipath.errors import SurfaceError
+from optipath.faults import shown
 from optipath.surfaces.ends import turned_directions
 from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import BLOCK, PORTION, walked_in_order

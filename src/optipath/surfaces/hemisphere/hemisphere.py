@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.elements.mueller_element import MuellerElement
-from optipath.errors import OptipathError, PhotonWarning, SurfaceError, ValueFault, shown, unknown
+from optipath.errors import OptipathError, PhotonWarning, SurfaceError, ValueFault
+from optipath.faults import shown, unknown
 from optipath.kernels.facets import MASKINGS
 from optipath.light.frame import Frame
 from optipath.light.light import Light

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import SurfaceError, need, shown, unknown
+from optipath.errors import SurfaceError
+from optipath.faults import shown, unknown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
+from optipath.raising import need
 from optipath.surfaces.energy_shares import processors
 from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere

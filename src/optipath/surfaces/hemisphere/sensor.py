@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError, unknown
+from optipath.errors import SurfaceError
+from optipath.faults import unknown
 from optipath.values.precision import Numbers, whole_number
 
 if TYPE_CHECKING:

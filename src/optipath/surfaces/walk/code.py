@@ -7,7 +7,8 @@ from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import SurfaceError, need
+from optipath.errors import SurfaceError
+from optipath.raising import need
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
