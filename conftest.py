@@ -36,6 +36,7 @@ def pytest_configure(config: pytest.Config) -> None:
         os.environ["OPTIPATH_CACHE"] = os.path.join(folder, "cache")  # noqa: PTH118 - a text
         os.environ["JAX_COMPILATION_CACHE_DIR"] = os.path.join(folder, "jax")  # noqa: PTH118
         os.environ["JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS"] = "0"
+        os.environ.pop("OPTIPATH_PRESETS", None)
         # Many tests start a process, each of which would compile the text of the library anew.
         os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 

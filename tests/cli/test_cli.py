@@ -70,6 +70,41 @@ def test_a_run_reads_the_file_of_its_preset_once_and_calls_few_functions(run, mo
     assert sum(calls) < 7000
 
 
+def test_own_presets_are_listed_with_their_folder_and_a_faulty_one_with_its_fault(
+    told, run, found, tmp_path, monkeypatch
+):
+    (tmp_path / "presets").mkdir()
+    Path(malus_with()).rename("presets/mine.toml")
+    names = list(found("presets"))
+    assert names == op.preset_names()
+    assert "mine" in names
+    lines = told("presets").splitlines()
+    where = lines.index("your presets in 'presets':")
+    assert [line.split()[0] for line in lines[where:] if line.startswith(" mine ")] == ["mine"]
+    assert found("run mine --angle 60")["detectors"]["eye"]["stokes"][0] == pytest.approx(0.125)
+    assert "Malus" in told("show mine")
+    (tmp_path / "presets" / "broken.toml").write_text("x = \x1b[", "utf-8")
+    (tmp_path / "presets" / "malus.toml").write_text("", "utf-8")
+    status, out, err = run("presets")
+    assert (status, len(err.splitlines())) == (0, 1)
+    assert "presets/malus.toml" in err
+    assert "faulty: 'presets/broken.toml' is not TOML" in " ".join(out.split())
+    for line in ("run --help", "plot --help", "presets --json"):
+        status, out, err = run(line)
+        assert (status, err) == (0, "")
+        assert "broken" in out
+        assert "\x1b" not in out
+    monkeypatch.setenv("_OPTIPATH_COMPLETE", "bash_complete")
+    for line, completed in {
+        "run mi": ["mine"],
+        "run bro": [],
+        "run mine --an": ["--angle"],
+    }.items():
+        monkeypatch.setenv("COMP_WORDS", f"optipath {line}")
+        monkeypatch.setenv("COMP_CWORD", str(line.count(" ") + 1))
+        assert told("").split() == [f"plain,{name}" for name in completed]
+
+
 PARAMETERS = op.load_preset("npgr026").parameters
 
 

@@ -270,6 +270,24 @@ def own(answers_of):
     return answers_of("own.toml", OWN)
 
 
+def test_own_presets_are_offered_and_a_faulty_one_says_so(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "presets").mkdir()
+    (tmp_path / "presets" / "mine.toml").write_text(OWN, "utf-8")
+    (tmp_path / "presets" / "faulty.toml").write_text("x = [", "utf-8")
+    answers = PageAnswers(ExploredPresets())
+    offered = {each["name"]: each for each in answers.presets()["presets"]}
+    assert offered["mine"] == {"name": "mine", "description": TITLE, "file": True}
+    assert not offered["malus"]["file"]
+    assert trace(answers, "mine", values={"b": "0"})["faults"] == []
+    (fault,) = answers.open({"preset": "faulty"})["faults"]
+    assert "is not TOML" in fault["sentence"]
+    assert (
+        "load_preset('mine')"
+        in exported(answers, "python", {"preset": "mine", "values": {"b": "0"}})[1]
+    )
+
+
 def parameters(answers, preset):
     return {each["name"]: each for each in answers.open({"preset": preset})["parameters"]}
 

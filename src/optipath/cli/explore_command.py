@@ -8,12 +8,15 @@ from threading import Thread
 import click
 
 from optipath.cli.console import say
-from optipath.cli.options import StrictCommand
+from optipath.cli.options import StrictCommand, completed_by
 from optipath.explorer.answers import PageAnswers
 from optipath.explorer.paths import FIRST, ExploredPresets
 from optipath.explorer.server import PageServer
+from optipath.paths.files.presets import preset_names
 
-PRESET = click.Argument(["preset"], required=False, metavar="[PRESET]")
+PRESET = click.Argument(
+    ["preset"], required=False, metavar="[PRESET]", shell_complete=completed_by(preset_names)
+)
 BROWSER = click.Option(
     ["--browser/--no-browser"],
     default=True,

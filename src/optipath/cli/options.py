@@ -85,7 +85,10 @@ class WholeHelp(click.Group):
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write a line for each subcommand, which goes on in the next where it is long."""
-        commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
-        rows = [(n, c.get_short_help_str(1000)) for n, c in commands.items() if c is not None]
         with formatter.section("Commands"):
-            formatter.write_dl(rows)
+            formatter.write_dl([*self.short_helps(ctx).items()])
+
+    def short_helps(self, ctx: click.Context) -> dict[str, str]:
+        """Return what help says of each subcommand."""
+        commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
+        return {n: c.get_short_help_str(1000) for n, c in commands.items() if c is not None}

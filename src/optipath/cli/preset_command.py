@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -25,7 +26,12 @@ from optipath.materials.named_materials import (
 )
 from optipath.materials.quantities import READINGS
 from optipath.paths.binding import from_materials
-from optipath.paths.files.presets import bound_preset, load_preset, preset_names
+from optipath.paths.files.presets import (
+    bound_preset,
+    load_preset,
+    preset_descriptions,
+    preset_names,
+)
 from optipath.raising import collecting
 from optipath.values.cases import ALL
 from optipath.values.text import AxisValues, IdleValues
@@ -91,9 +97,19 @@ class PresetGroup(WholeHelp):
         del ctx
         return preset_names()
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
-        """Return the command of a preset, with its parameters as options."""
+    def short_helps(self, ctx: click.Context) -> dict[str, str]:
+        """Return what each preset is, none of which is made."""
         del ctx
+        return {name: printable(about) for name, about in preset_descriptions().items()}
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return the command of a preset; None while a shell completes words and it is faulty."""
+        with suppress(OptipathError) if ctx.resilient_parsing else nullcontext():
+            return self._command_of(cmd_name)
+        return None
+
+    def _command_of(self, cmd_name: str) -> click.Command:
+        """Return the command of a preset, with its parameters as options."""
         path, command = load_preset(cmd_name), self.name or ""
         names = {option.name or "" for option in self.options}
         flags = {each.lstrip("-") for option in self.options for each in option.opts}

@@ -2,14 +2,32 @@
 
 from __future__ import annotations
 
+from itertools import groupby
+
 import click
 
-from optipath.cli.console import JSON, say_descriptions
+from optipath.cli.console import JSON, say, say_descriptions, say_json, say_wrapped
 from optipath.cli.options import StrictCommand
-from optipath.paths.files.presets import preset_descriptions
+from optipath.paths.files.presets import preset_descriptions, preset_files
+
+_MOST = 4
+"""How many files that have no name are listed."""
 
 
 @click.command(cls=StrictCommand, params=[JSON])
 def presets(*, as_json: bool) -> None:
-    """List the presets."""
-    say_descriptions("preset", preset_descriptions(), as_json=as_json)
+    """List the presets: the library's, and yours in ./presets and OPTIPATH_PRESETS."""
+    files, unnamed = preset_files()
+    descriptions = preset_descriptions(files)
+    if as_json:
+        say_json(descriptions)
+        return
+    for number, (folder, names) in enumerate(groupby(files, lambda name: files[name].parent)):
+        if number:
+            say_wrapped(f"\nyour presets in '{folder}':")
+        say_descriptions("preset", {name: descriptions[name] for name in names}, as_json=False)
+    if unnamed:
+        some = ", ".join(f"'{file}'" for file in unnamed[:_MOST])
+        more = f" and {len(unnamed) - _MOST} more" if unnamed[_MOST:] else ""
+        why = "the name is not of a-z, 0-9 and -, or that of a preset above; give the path"
+        say(f"optipath: not found by name: {some}{more}; {why}", err=True)

@@ -17,7 +17,8 @@ from optipath.faults import unknown
 from optipath.materials.index_domains import OutsideDomain
 from optipath.materials.named_materials import WAVELENGTH, places_of, stands_for_index
 from optipath.paths.energy import KEEPING
-from optipath.paths.files.presets import load_preset, preset_descriptions
+from optipath.paths.files.presets import load_preset, preset_descriptions, preset_files
+from optipath.paths.files.schema import presets_folder
 from optipath.paths.usual_range import usual_range
 from optipath.values.units import in_unit
 
@@ -104,7 +105,9 @@ class ExploredPresets:
     """The paths that the page may open, read and composed once."""
 
     def __init__(self, opened: str = FIRST) -> None:
-        self._descriptions = preset_descriptions()
+        files, _ = preset_files()
+        self._descriptions = preset_descriptions(files)
+        self._own = {name for name, file in files.items() if file.parent != presets_folder()}
         self._bases: dict[str, PathGraph] = {}
         self._paths: OrderedDict[Any, ExploredPath] = OrderedDict()
         self._sources: dict[str, str] = {}
@@ -119,7 +122,7 @@ class ExploredPresets:
     def as_json(self) -> list[dict[str, Any]]:
         """Return what there is, that of the file first."""
         return [
-            {"name": name, "description": text, "file": name in self._sources}
+            {"name": name, "description": text, "file": name in self._own or name in self._sources}
             for name, text in self._descriptions.items()
         ]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.errors import MeshWarning, SurfaceError
 from optipath.faults import shown, unknown
-from optipath.paths.files.schema import Faults, checked_table, names_in, presets_folder
+from optipath.paths.files.schema import Faults, checked_table, files_in, presets_folder
 from optipath.surfaces.energy_shares import Energy, energy
 from optipath.surfaces.hemisphere.measure import measure
 from optipath.surfaces.sample import Sample
@@ -306,7 +306,7 @@ _FOLDER = presets_folder() / "experiments"
 
 def experiment_names() -> list[str]:
     """Return the names of the experiments that come with the library, sorted."""
-    return names_in(_FOLDER)
+    return [*files_in(_FOLDER)]
 
 
 def load_experiment(experiment: str | PathLike[str]) -> Experiment:

@@ -12,7 +12,7 @@ from optipath.paths.files.schema import (
     Faults,
     checked_table,
     file_of,
-    names_in,
+    files_in,
     parsed,
     presets_folder,
     text_of,
@@ -41,13 +41,13 @@ def sample_names() -> list[str]:
     >>> "glass-on-glass" in sample_names()
     True
     """
-    return names_in(_FOLDER)
+    return [*files_in(_FOLDER)]
 
 
 def sample_descriptions() -> dict[str, str]:
     """Return what each sample that comes with the library is, by name, without making it."""
-    files = {name: _FOLDER / f"{name}.toml" for name in sample_names()}
-    return {name: parsed(text_of(f, "sample"), str(f))["description"] for name, f in files.items()}
+    files = files_in(_FOLDER).items()
+    return {name: parsed(text_of(f, "sample"), str(f))["description"] for name, f in files}
 
 
 def load_sample(sample: str | PathLike[str]) -> Sample:
@@ -78,7 +78,7 @@ def load_sample(sample: str | PathLike[str]) -> Sample:
 def text_and_file(argument: Any, what: str, folder: Path, see: str) -> tuple[str, Path]:
     """Return the text of the file that a name or a path stands for, and where it is."""
     try:
-        path = file_of(argument, what, folder, see)
+        path = file_of(argument, what, files_in(folder), see)
         return text_of(path, what), path
     except PresetError as error:
         raise SurfaceError(*error.faults) from None

@@ -11,7 +11,7 @@ import pytest
 import optipath as op
 from optipath.paths.files.schema import (
     file_of,
-    names_in,
+    files_in,
     presets_folder,
     text_of,
 )
@@ -27,12 +27,13 @@ def folder(tmp_path):
 
 
 def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(folder):
-    assert names_in(folder) == ["thick", "thin"]
-    assert names_in(folder / "nowhere") == []
-    assert "glass-rough" not in names_in(presets_folder())
-    assert file_of("thin", "film", folder, "a look") == folder / "thin.toml"
+    files = files_in(folder)
+    assert [*files] == ["thick", "thin"]
+    assert files_in(folder / "nowhere") == {}
+    assert "glass-rough" not in files_in(presets_folder())
+    assert file_of("thin", "film", files, "a look") == folder / "thin.toml"
     own = folder / "more" / "own.toml"
-    assert file_of(own, "film", folder, "a look") == file_of(str(own), "film", folder, "") == own
+    assert file_of(own, "film", files, "a look") == file_of(str(own), "film", files, "") == own
     (folder / "thin.toml").write_bytes(b"\xef\xbb\xbfa = 1")
     assert text_of(folder / "thin.toml", "film") == "a = 1"
     with pytest.raises(op.errors.PresetError, match="cannot be read: it is no file"):
@@ -44,7 +45,7 @@ def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(f
         (None, "a film is a name or the path of a file, not None"),
     ):
         with pytest.raises(op.errors.PresetError) as error:
-            file_of(given, "film", folder, "a look")
+            file_of(given, "film", files, "a look")
         assert str(error.value).startswith(sentence)
 
 

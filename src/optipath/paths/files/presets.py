@@ -2,40 +2,88 @@
 
 from __future__ import annotations
 
+import os
+import stat
 from numbers import Integral
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Never
 
-from optipath.errors import ParameterError, PresetError
+from optipath.errors import OptipathError, ParameterError, PresetError
 from optipath.faults import closest, shown, there_are
-from optipath.paths.files.schema import file_of, names_in, parsed, presets_folder, text_of
+from optipath.paths.files import schema
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
     from os import PathLike
-    from pathlib import Path
 
     from optipath.paths.path_graph import PathGraph
 
 
+_HERE = Path("presets")
+"""Where a user's own presets are looked for first, which need not exist."""
+
+
 def preset_names() -> list[str]:
-    """Return the names of the presets that come with the library, sorted.
+    """Return the names that `load_preset` accepts, sorted: the library's and your own.
+
+    Your own presets are the TOML files in ``./presets`` and in the folders that the environment
+    variable ``OPTIPATH_PRESETS`` lists, named ``[a-z0-9-]+``. Where several files have a name, the
+    library's is used, then that of the first folder.
 
     Examples
     --------
     >>> "npgr026" in preset_names()
     True
     """
-    return names_in(presets_folder())
+    return sorted(preset_files()[0])
 
 
-def preset_descriptions() -> dict[str, str]:
-    """Return what each preset is, by name, without making its path.
+def preset_files() -> tuple[dict[str, Path], list[Path]]:
+    """Return the files of presets by name, the library's first, and files that no name finds."""
+    files, unnamed = schema.files_in(schema.presets_folder()), []
+    for place, folder in _own_folders().items():
+        for name, file in schema.files_in(folder).items() if place != folder else ():
+            if not schema.is_name(name) or files.setdefault(name, file) != file:
+                unnamed.append(file)
+    return files, unnamed
+
+
+def _own_folders() -> dict[object, Path]:
+    """Return ``./presets`` and the folders of ``OPTIPATH_PRESETS`` by place, none of them twice."""
+    names = [str(_HERE), *os.environ.get("OPTIPATH_PRESETS", "").split(os.pathsep)]
+    folders: dict[object, Path] = {}
+    for folder in map(Path, filter(None, names)):
+        folders.setdefault(_place(folder), folder)
+    folders.pop(_place(schema.presets_folder()), None)
+    return folders
+
+
+def _place(folder: Path) -> object:
+    """Return what identifies a folder, by whatever way it is reached; itself where it is none."""
+    try:
+        status = folder.stat()
+    except OSError:
+        return folder
+    return (status.st_dev, status.st_ino) if stat.S_ISDIR(status.st_mode) else folder
+
+
+def preset_descriptions(files: Mapping[str, Path] | None = None) -> dict[str, str]:
+    """Return what each preset is, or what is wrong with its file, without making its path.
 
     >>> preset_descriptions()["glass-slab"][:15]
     'A slab of glass'
     """
-    files = {name: locate(name) for name in preset_names()}
-    return {name: parsed(text_of(f, "preset"), str(f))["description"] for name, f in files.items()}
+    files = preset_files()[0] if files is None else files
+    return {name: _description(files[name]) for name in sorted(files)}
+
+
+def _description(file: Path) -> str:
+    try:
+        document = schema.parsed(schema.text_of(file, "preset"), str(file))
+        schema.checked_table(document, schema.TOP, ("format", "elements"))
+        return str(document.get("description", ""))
+    except OptipathError as error:
+        return f"faulty: {error.faults[0]}"
 
 
 def load_preset(
@@ -50,7 +98,7 @@ def load_preset(
     Parameters
     ----------
     preset : str or path
-        A name out of `preset_names`, or the path of a TOML file of one's own.
+        A name out of `preset_names`, or the path of a TOML file.
     *unnamed
         None: a case and values are given by name.
     case : str or int, optional
@@ -134,11 +182,17 @@ def _values_of(path: PathGraph, preset: str | PathLike[str], case: str | int) ->
 
 def locate(preset: str | PathLike[str]) -> Path:
     """Return the file of a preset, which need not exist if a path is given."""
-    return file_of(preset, "preset", presets_folder(), "`optipath presets`")
+    own = [
+        f"'{folder}'{' (no folder)' if place == folder else ''}"
+        for place, folder in _own_folders().items()
+        if place != _HERE
+    ]
+    where = f", also in {', '.join(own)}" if own else ""
+    return schema.file_of(preset, "preset", preset_files()[0], "`optipath presets`", where)
 
 
 def read_preset(path: Path) -> PathGraph:
     """Return the path that a file describes."""
     from optipath.paths.files.reader import path_of_text  # noqa: PLC0415 - not for all
 
-    return path_of_text(text_of(path, "preset"), str(path), path.name)
+    return path_of_text(schema.text_of(path, "preset"), str(path), path.name)

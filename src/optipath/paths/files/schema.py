@@ -161,18 +161,23 @@ def parsed(text: str, source: str) -> dict[str, Any]:
         raise PresetError(f"'{source}' is not TOML: {error}{where}") from None
 
 
-def names_in(folder: Path) -> list[str]:
-    """Return the names of the files of a folder, sorted; none where there is no such folder."""
-    return sorted([path.stem for path in folder.glob("*.toml")])
+def files_in(folder: Path) -> dict[str, Path]:
+    """Return the files of a folder by name, sorted; none where there is no such folder."""
+    return dict(sorted((path.stem, path) for path in folder.glob("*.toml")))
 
 
-def file_of(argument: Any, what: str, folder: Path, see: str) -> Path:
+def is_name(text: str) -> bool:
+    """Tell whether a text may name a file, which then is in a folder and not beyond it."""
+    return re.fullmatch(r"[a-z0-9-]+", text) is not None
+
+
+def file_of(argument: Any, what: str, files: Mapping[str, Path], see: str, where: str = "") -> Path:
     """Return the file that a name or a path stands for, which need not exist if it is a path."""
-    names = names_in(folder)
-    if isinstance(argument, str) and re.fullmatch(r"[a-z0-9-]+", argument):
-        if argument not in names:
-            raise PresetError(f"{what} '{argument}' is unknown{did_you_mean(argument, names)}")
-        return folder / f"{argument}.toml"
+    if isinstance(argument, str) and is_name(argument):
+        if argument not in files:
+            cure = did_you_mean(argument, files)
+            raise PresetError(f"{what} '{argument}' is unknown{where}{cure}")
+        return files[argument]
     try:
         path = Path(argument)
     except TypeError:
