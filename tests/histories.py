@@ -58,13 +58,18 @@ def random_history(seed):
     return points[0], [n[0] for n in materials], events
 
 
-def coherency(points, events, materials, outside=1.0):
-    """The coherency matrix of light of S0 = 1 behind chains, (..., 3, 3), in extended precision."""
+def coherency(points, events, materials, outside=1.0, axes=None):
+    """The coherency matrix of light of S0 = 1 behind chains, (..., 3, 3), in extended precision.
+
+    On some legs, by number, is a polarizer that passes what is along an axis of the world.
+    """
+    axes = axes or {}
     legs = np.diff(np.asarray(points, LONG), axis=-2)
     legs = _units(legs)
     medium = np.asarray(outside, LONG)
     first = legs[..., 0, :]
     light = (0.5 * (np.eye(3) - first[..., :, None] * first[..., None, :])).astype(np.clongdouble)
+    light = _passed(light, first, axes.get(0))
     for place, (event, material) in enumerate(zip(events, materials, strict=True)):
         before, behind = legs[..., place, :], legs[..., place + 1, :]
         n = np.asarray(material, np.clongdouble)
@@ -85,7 +90,17 @@ def coherency(points, events, materials, outside=1.0):
         p_in, p_out = np.cross(before, s), np.cross(behind, s)
         surface = _dyad(r_s, s, s) + _dyad(r_p, p_out, p_in)
         light = surface @ light @ np.conj(np.swapaxes(surface, -1, -2))
+        light = _passed(light, behind, axes.get(place + 1))
     return light
+
+
+def _passed(light, along, axis):
+    """What a polarizer passes, whose axis in the world is seen across the light."""
+    if axis is None:
+        return light
+    across = _units(axis - np.sum(axis * along, axis=-1, keepdims=True) * along)
+    projector = _dyad(np.ones(across.shape[:-1], LONG), across, across)
+    return projector @ light @ projector
 
 
 def stokes_in(light, frame):

@@ -203,7 +203,7 @@ def test_what_cannot_stand_between_vertices_is_refused():
         op.Vertex(1.5, CORNER, 1, events=[3])
     for node, frames, sentence in (
         ("vertex", {"in": op.Frame()}, "'vertex' has its frames from its vertices"),
-        ("lamp", {"out": op.Frame()}, "'lamp' has world frames of its own"),
+        ("lamp", {"out": op.Frame()}, "'lamp.out -> vertex.in': light travels along"),
     ):
         path = op.PathGraph()
         for name, element in (("lamp", LAMP), ("vertex", GLASS), ("eye", EYE)):

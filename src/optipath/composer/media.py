@@ -11,6 +11,7 @@ import numpy as np
 
 from optipath.composer.meetings import TURNED, Meetings, SameTurn, keys_of, turn_text, way_text
 from optipath.composer.path_values import FOLLOWING
+from optipath.composer.placement import along_legs
 from optipath.composer.wiring import Wiring
 from optipath.elements.boundary import BoundaryElement, world_angles
 from optipath.elements.boundary_media import MediaOfBoundary, arriving_waves
@@ -49,7 +50,8 @@ class Media:
     @cached_property
     def open(self) -> tuple[Agreement, ...]:
         """What is looked at when the path runs, since a value is given only then."""
-        return tuple(a for a in (*self._all, *self._in_space) if a.is_open)
+        legs = along_legs(self.meetings.wiring)
+        return tuple(a for a in (*self._all, *self._in_space, *legs) if a.is_open)
 
     def faults(self) -> list[str]:
         """Return what does not fit of the values that are known, a sentence each."""

@@ -8,10 +8,12 @@ import numpy as np
 
 from optipath.composer.wiring import link_text
 from optipath.elements.frame_checks import azimuth_at
+from optipath.elements.vertex_place import AlongLeg
 from optipath.errors import OptipathError
 from optipath.faults import shown
 from optipath.kernels.catalog import PLAIN_TURN, TURN
 from optipath.light.frame import Frame
+from optipath.values.agreement import first_faults
 from optipath.values.arrays import broadcast_fault
 from optipath.values.operands import Operand, Operation, operand_of
 from optipath.values.parameters import Parameter
@@ -55,8 +57,39 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
         if np.all(c == 1.0) and np.all(s == 0.0):
             return None
         return Operation(PLAIN_TURN, (Operand(c), Operand(s)))
+    if wiring.self_placed and (beside := _beside_vertex(wiring, link)):
+        frame, vertex = beside
+        return vertex.turn_to(frame, back=arriving is not None)
     azimuth = azimuth_of(wiring, link)
     return None if is_zero(azimuth) else Operation(TURN, (azimuth,))
+
+
+def _beside_vertex(wiring: Wiring, link: Link) -> tuple[Frame, VertexFrame] | None:
+    """Return the world frame at one end of a link, and the vertex's frame at the other, if so.
+
+    Light that begins before a chain has the frame of its first vertex.
+    """
+    start, end, (leaves, enters) = link
+    arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
+    if (arriving is None) == (expected is None):
+        return None
+    name, port = (start, leaves) if arriving is None else (end, enters)
+    if name not in wiring.self_placed and wiring.elements[name].inputs:
+        return None
+    vertex = vertex_frame(wiring, name, port)
+    frame: Any = expected if arriving is None else arriving
+    return None if vertex is None else (frame, vertex)
+
+
+def along_legs(wiring: Wiring) -> Iterator[AlongLeg]:
+    """Yield what must fit of world frames and of vertices next to them."""
+    if not wiring.self_placed or not any(wiring.graph.nodes(data="frames")):
+        return
+    for link in wiring.graph.edges(keys=True):
+        masks = any(getattr(wiring.elements[end], "bad", "") == "mask" for end in link[:2])
+        if not masks and (beside := _beside_vertex(wiring, link)):
+            enters = frame_at(wiring, link[0], link[2][0]) is None
+            yield AlongLeg.of(link_text(link), *beside, enters=enters)
 
 
 def placement_faults(wiring: Wiring) -> list[str]:
@@ -73,38 +106,36 @@ def placement_faults(wiring: Wiring) -> list[str]:
     for name, element in wiring.elements.items():
         if element.merges and frame_at(wiring, name, "in") is None:
             results += _meeting_faults(wiring, name)
-    return [*results, *_between_faults(wiring)]
+    legs = [] if results else [law for law in along_legs(wiring) if not law.is_open]
+    return [*results, *first_faults(legs), *_between_faults(wiring)]
 
 
 def _self_placed_fault(wiring: Wiring, link: Link) -> str:
-    """Say what is wrong with a link from or to an element that has frames by its values."""
+    """Say what is wrong with a link between elements that have frames by their values."""
     start, end, _ = link
-    placed = [start in wiring.self_placed, end in wiring.self_placed]
-    if all(placed):
+    if start in wiring.self_placed and end in wiring.self_placed:
         if wiring.graph.edges[link]["azimuth"] is not None:
             return " is turned by its vertices and by an azimuth; leave the azimuth out"
         fault = wiring.elements[end].fault_behind(wiring.elements[start])
         return f" {fault}" if fault else ""
-    if any(placed):
-        argument, own = (end, start) if placed[0] else (start, end)
-        if wiring.graph.nodes[argument]["frames"]:
-            frames = f"'{argument}' has world frames of its own, and '{own}' those of its vertices"
-            return f": {frames}; place '{argument}' relatively"
     return ""
 
 
 def _between_faults(wiring: Wiring) -> Iterator[str]:
     """Yield what is wrong with elements that stand relatively between two vertices."""
+    nodes = wiring.graph.nodes(data="frames")
+    known = wiring.self_placed | {name for name, frames in nodes if frames}
     for name in filter(wiring.self_placed.__contains__, wiring.elements):
-        waiting = [p for p in wiring.graph.predecessors(name) if p not in wiring.self_placed]
+        waiting = [p for p in wiring.graph.predecessors(name) if p not in known]
         seen = set(waiting)
         while waiting:
             between = waiting.pop()
             for before in wiring.graph.predecessors(between):
                 if before in wiring.self_placed:
                     ends = f"the vertices '{before}' and '{name}', whose frames differ"
-                    yield f"'{between}' stands relatively between {ends}; put it before or behind"
-                elif before not in seen:
+                    cure = "put it before or behind, or give it world frames"
+                    yield f"'{between}' stands relatively between {ends}; {cure}"
+                elif before not in seen | known:
                     seen.add(before)
                     waiting.append(before)
 
@@ -124,16 +155,17 @@ def _link_fault(wiring: Wiring, link: Link) -> str:
             other = f"'{name}.{port}' has no world frame, though '{name}.{next(iter(frames))}' has"
             return f": {other}; give it one"
     ends_relatively = expected is None and not wiring.elements[end].outputs and own is None
-    if (arriving is None) != (expected is None) and not ends_relatively:
+    beside = _beside_vertex(wiring, link)
+    if (arriving is None) != (expected is None) and not ends_relatively and beside is None:
         has, lacks = f"'{start}.{leaves}'", f"'{end}.{enters}'"
         if arriving is None:
             has, lacks = lacks, has
         return f": {has} has a world frame but {lacks} has none; give both or neither"
-    if arriving is None or expected is None:
+    if beside is None and (arriving is None or expected is None):
         return ""
     if not (own is None and is_zero(element_turn)):
         return " is turned by its world frames and by an azimuth; give one of them"
-    fault = _turn_fault(arriving, expected)
+    fault = "" if arriving is None or expected is None else _turn_fault(arriving, expected)
     return f": {fault}" if fault else ""
 
 

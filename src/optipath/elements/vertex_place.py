@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -11,11 +11,18 @@ import numpy as np
 from optipath.elements.vertex_chain import VerticesByAngles, of_chain, pieces_of
 from optipath.errors import FrameError, ValueFault
 from optipath.faults import shown
-from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED
+from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED, TURN_TO_FRAME
 from optipath.kernels.kernel import Kernel
 from optipath.kernels.primitives import NUMPY, Made, of_module
 from optipath.kernels.vectors import dot, minus
-from optipath.kernels.vertex_chain import LONGEST, SHORTEST, Event, PointsByAngles, points_of
+from optipath.kernels.vertex_chain import (
+    ALONG,
+    LONGEST,
+    SHORTEST,
+    Event,
+    PointsByAngles,
+    points_of,
+)
 from optipath.light.frame import Frame
 from optipath.materials.quantities import Quantity
 from optipath.values.agreement import Agreement, text_of
@@ -130,14 +137,15 @@ class Coordinates(NamedTuple):
         """Return the operation of a kernel of coordinates, with the events before them."""
         return Operation(kernel, (*before, *self.events, *self._coordinates(self.points)))
 
-    def planes(self, kernel: Kernel) -> Operation:
+    def planes(self, kernel: Kernel, *frame: Operand, **how: Any) -> Operation:
         """Return the operation of a kernel of planes of incidence, by points, or else by angles."""
-        points, events, known = self.points, self.events, {"events": len(self.events)}
+        points, events, known = self.points, self.events, how | {"events": len(self.events)}
         if points is not None:
-            points, events, known = replace(points, axes=True), (), {"known": True}
+            points, events, known = replace(points, axes=True), (), how | {"known": True}
         factory: Any = kernel.factory
         made = Made(factory.func, **factory.keywords, **known)
-        return Operation(replace(kernel, factory=made), (*events, *self._coordinates(points)))
+        arguments = *events, *frame, *self._coordinates(points)
+        return Operation(replace(kernel, factory=made), arguments)
 
     def _coordinates(self, points: PointsByAngles | None) -> tuple[Operand | ResultOf, ...]:
         if points is None:
@@ -366,6 +374,16 @@ class VertexFrame:
         return replace(self, turns=(*self.turns, *turns))
 
     @property
+    def axes(self) -> Operation:
+        """The x and z of the frame before it is turned."""
+        return self.points.planes(REFLECTED if self.leaves else ARRIVING)
+
+    def turn_to(self, frame: Frame, *, back: bool = False) -> Operation:
+        """Return the turn from this frame, before it is turned, to a world frame, or back."""
+        axes = (Operand(axis, place, (3,)) for axis in (frame.x, frame.z) for place in range(3))
+        return self.points.planes(TURN_TO_FRAME, *axes, leaves=self.leaves, back=back)
+
+    @property
     def names(self) -> set[str]:
         """The open parameters that it depends on."""
         values = (operand.value for operand in self._views)
@@ -387,8 +405,7 @@ class VertexFrame:
         }
         shape = joint_shape(*(number.shape for number in numbers.values()))
         with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
-            planes = self.points.planes(REFLECTED if self.leaves else ARRIVING)
-            axes = planes.numbers(NUMPY, lambda operand: numbers[id(operand)])
+            axes = self.axes.numbers(NUMPY, lambda operand: numbers[id(operand)])
             whole = [np.broadcast_to(part, shape) for part in axes[:6]]
             x, z = np.stack(whole[:3], axis=-1), np.stack(whole[3:], axis=-1)
             y = np.cross(z, x)
@@ -401,3 +418,51 @@ class VertexFrame:
     @property
     def _views(self) -> tuple[Operand, ...]:
         return *self.points.operands, *self.turns
+
+
+@dataclass(frozen=True, eq=False)
+class AlongLeg(Agreement):
+    """A world frame beside a vertex travels along the leg there.
+
+    The operands are the z of the frame, and what the leg is made of.
+    """
+
+    link: str
+    enters: bool
+    leg: Operation = field(compare=False)
+
+    shows_in_light = True
+
+    @classmethod
+    def of(cls, link: str, frame: Frame, vertex: VertexFrame, *, enters: bool) -> AlongLeg:
+        """Return it for the frame that light enters, or leaves, by a link, and the vertex."""
+        z = (Operand(frame.z, place, (3,)) for place in range(3))
+        return cls((*z, *vertex.axes.operands()), link, enters, vertex.axes)
+
+    @property
+    def spoils(self) -> tuple[str, ...]:
+        return (str(id(self.operands[0].value)),) if self.enters else ()
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        return () if self.enters else (str(id(self.operands[0].value)),)
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        off = minus(numbers[:3], self._along(xp, numbers))
+        # Points that are not finite are told elsewhere.
+        return ~(dot(off, off) > ALONG**2)
+
+    def sentence(self, *numbers: float) -> str:
+        own, along = (
+            "(" + ", ".join(f"{float(n) + 0.0:.6g}" for n in vector) + ")"
+            for vector in (numbers[:3], self._along(np, tuple(map(np.float64, numbers))))
+        )
+        return (
+            f"link '{self.link}': light travels along {along}, and the world frame along {own}; "
+            f"give Frame.from_direction(z, x) with the z of the light"
+        )
+
+    def _along(self, xp: Any, numbers: tuple[Any, ...]) -> Any:
+        """Return the direction of the leg."""
+        argument = dict(zip(map(id, self.operands[3:]), numbers[3:], strict=True))
+        return self.leg.numbers(of_module(xp), lambda operand: argument[id(operand)])[3:6]

@@ -25,6 +25,7 @@ from optipath.kernels.vertex_chain import (
     event_at_vertex,
     refraction_at_vertex,
     turn_between_planes,
+    turn_to_frame,
 )
 
 Row: TypeAlias = tuple[Factory, tuple[Known, ...], *tuple[Factory, ...]]
@@ -237,6 +238,7 @@ TURN_BETWEEN_PLANES = Kernel(
 TURN_AT_REFRACTION = Kernel(
     "turn between planes beside a refraction", ROTATION, Made(turn_between_planes, across=True)
 )
+TURN_TO_FRAME = Kernel("turn between a vertex and a frame", ROTATION, Made(turn_to_frame))
 INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
 REFRACTION = Kernel("refraction at a vertex", None, refraction_at_vertex)
 EVENT_AT_VERTEX = Kernel("event at a vertex", None, event_at_vertex)

@@ -216,6 +216,34 @@ def turn_between_planes(xp: Primitives, *, across: bool = False, **points: Any) 
     return turned
 
 
+ALONG = 1e-6
+"""How far the direction of a world frame may be off that of a leg, as normals may be."""
+
+
+def turn_to_frame(
+    xp: Primitives, *, leaves: bool = False, back: bool = False, **points: Any
+) -> KernelFunction:
+    """Make ``(cos 2a, sin 2a)`` of the turn from the last vertex to a world frame, or back.
+
+    The x and z of the frame follow the events. Not a number where its z is not along the leg.
+    """
+    events = points.get("events", 0)
+    met, aligned, where, below_rounding = _met(xp, **points), align(xp), xp.where, xp.below_rounding
+
+    def turned(*numbers: Any) -> tuple[Any, ...]:
+        own, along = numbers[events : events + 3], numbers[events + 3 : events + 6]
+        several, planes = met(*numbers[:events], *numbers[events + 6 :])
+        x, z = planes[-1], several[-1 if leaves else -2].unit
+        off, one = minus(along, z), dot(z, z)
+        limit = where(below_rounding(one, _BELOW_SINGLES * one), _STRAIGHT_IN_SINGLES, ALONG)
+        # Next to the normal, x is known to fewer digits than z.
+        d = dot(x, own) - dot(x, z) * dot(own, z)
+        e = dot(z, cross(own, x) if back else cross(x, own))
+        return aligned(where(dot(off, off) <= limit * limit, d, nan), e)
+
+    return turned
+
+
 def axes_at_vertex(xp: Primitives, *, leaves: bool = False, **points: Any) -> KernelFunction:
     """Make ``(x, z)``, six numbers: how light arrives at the last vertex, or leaves it."""
     met, sqrt = _met(xp, **points), xp.sqrt

@@ -373,7 +373,9 @@ def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]
     return start, end, (out_port, in_port)
 
 
-def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before: Any) -> None:
+def insert(
+    graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before: Any, frames: Any = None
+) -> None:
     """Put an element into a link, as `PathGraph.insert` does."""
     check_element(name, element)
     enters, passes = (natural_port(element, name, out=out) for out in (False, True))
@@ -383,8 +385,10 @@ def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before:
     link = _link(graph, behind, before, taps=False)
     start, end, (leaves, arrives) = link
     frame = frame_at(Wiring(graph), start, leaves) if element.straight else None
-    add(graph, name, element, None if frame is None else {enters: frame})
-    if element.straight and frame is None:
+    if frames is None and frame is not None:
+        frames = {enters: frame}
+    add(graph, name, element, frames)
+    if element.straight and not frames:
         # What stands behind it stays as it was turned.
         turn_more(graph, link, -_own_turn(element))
     about = graph.edges[link]

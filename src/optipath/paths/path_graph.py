@@ -212,7 +212,13 @@ class PathGraph(Chainable):
         self._changed()
 
     def insert(
-        self, name: str, element: Element, behind: str | None = None, *, before: str | None = None
+        self,
+        name: str,
+        element: Element,
+        behind: str | None = None,
+        *,
+        before: str | None = None,
+        frames: Mapping[str, Frame] | None = None,
     ) -> Node:
         """Put an element into a link, which is named by a port or by both.
 
@@ -228,6 +234,9 @@ class PathGraph(Chainable):
         behind, before : str, optional
             The port that the link leaves, or leads to, as ``"node.port"``, or ``"node"`` for its
             natural one.
+        frames : mapping of str to Frame, optional
+            The world frame of each port, as `add` takes them: where its axes stand in space. By
+            default that of the port that light comes from, if it has one.
 
         Returns
         -------
@@ -247,7 +256,7 @@ class PathGraph(Chainable):
         >>> path
         <PathGraph: L >> P >> X2 >> X1 >> P2 >> E>
         """
-        self._edit(editing.insert, name, element, behind, before)
+        self._edit(editing.insert, name, element, behind, before, frames)
         return Node(self, name)
 
     def remove(self, name: str) -> None:

@@ -66,7 +66,7 @@ class Agreement:
     def key(self) -> Hashable:
         """Return what equal agreements share; None where an operand has no such."""
         keys = tuple(operand.key() for operand in self.operands)
-        others = (getattr(self, f.name) for f in fields(self) if f.name != "operands")
+        others = (getattr(self, f.name) for f in fields(self)[1:] if f.compare)
         return None if None in keys else (type(self), keys, *others)
 
     def fault(self, arguments: Mapping[str, Resolved] = NOTHING) -> str:
