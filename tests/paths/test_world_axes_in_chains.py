@@ -84,7 +84,9 @@ def test_by_angles_a_world_axis_stands_between_the_planes_of_incidence():
     for light in (found.trace(**values), op.Composer(engine="numba").compose(found).run(**values)):
         np.testing.assert_allclose(light.stokes, plain.trace(**values).stokes, rtol=1e-12)
         np.testing.assert_array_equal(light.frame.z, start.frame.z)
-    with pytest.raises(op.errors.PathError, match=r"link 'X1.reflected -> V.in': light travels along"):
+    with pytest.raises(
+        op.errors.PathError, match=r"link 'X1.reflected -> V.in': light travels along"
+    ):
         found.bind(**values).insert("V", op.Polarizer(), behind="X1", frames={"in": op.Frame()})
 
 
@@ -154,7 +156,9 @@ def test_points_that_are_given_later_must_lead_along_the_world_frame(engine):
     plan = op.Composer(engine=engine).compose(path)
     several = np.array([MIRROR] * 3)
     several[1] += [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 0.0]]
-    with pytest.raises(op.errors.ParameterError, match=r"along \(-0.24.*\(at 1, of 3 paths\)$") as told:
+    with pytest.raises(
+        op.errors.ParameterError, match=r"along \(-0.24.*\(at 1, of 3 paths\)$"
+    ) as told:
         plan.run(points=several)
     assert len(told.value.faults) == 1
     assert plan.run(points=several[::2]).stokes.shape == (2, 4)
