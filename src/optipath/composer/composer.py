@@ -14,6 +14,7 @@ from optipath.composer.lower import lower, refuse_no_jones
 from optipath.composer.media import Media, with_followed
 from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
+from optipath.composer.plain_graph import completed
 from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.wiring import (
     KEEPABLE,
@@ -25,6 +26,7 @@ from optipath.composer.wiring import (
     sharing_faults,
     tap_faults,
 )
+from optipath.elements.element import Chainable
 from optipath.engines.choice import ENGINES, REGISTRY, is_installed
 from optipath.engines.program import MODELS
 from optipath.errors import ComposerError, PathError
@@ -246,13 +248,13 @@ class Composer:
             return [f"{what} is exact and takes no tolerance; leave one of them out"]
         return []
 
-    def compose(self, path: Path | nx.MultiDiGraph) -> Plan:
+    def compose(self, path: Path | nx.DiGraph) -> Plan:
         """Return the plan of a path.
 
         Parameters
         ----------
-        path : PathGraph or networkx.MultiDiGraph
-            The elements and links.
+        path : PathGraph, networkx.MultiDiGraph or networkx.DiGraph
+            The elements and links; `PathGraph.from_networkx` has the attributes of a graph.
 
         Raises
         ------
@@ -262,10 +264,12 @@ class Composer:
             If an element may depolarise, and Jones columns are composed, or if the model is
             not exact for the path.
         """
-        graph = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
-        if not isinstance(graph, nx.MultiDiGraph):
+        graph = path if isinstance(path, nx.Graph) else getattr(path, "graph", None)
+        if not isinstance(graph, nx.Graph):
             raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():
+            if not isinstance(path, Chainable | Values):  # Whose graphs are known to be right.
+                graph = completed(graph)
             return self._plan(path if isinstance(path, Values) else Values(graph))
 
     def _plan(self, values: Values) -> Plan:

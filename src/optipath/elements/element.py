@@ -465,3 +465,13 @@ def with_values(element: E, **values: Any) -> E:
     faults = result.faults(element.kind or type(element).__name__)
     PathError.raise_for(f"on the way back, {fault}" for fault in faults)
     return result
+
+
+def natural_of(element: Element, *, out: bool) -> str:
+    """Return the port by which ``>>`` leaves an element, or enters it; empty for none."""
+    ports, said, unsaid = (
+        (element.outputs, element.natural, "out") if out else (element.inputs, element.entry, "")
+    )
+    if said in ports:
+        return said
+    return ports[0] if len(ports) == 1 and said == unsaid else ""

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.placement import is_zero
 from optipath.elements.coupling import vanishes
-from optipath.elements.element import Chainable, begun
+from optipath.elements.element import Chainable, begun, natural_of
 from optipath.elements.frame_checks import azimuth_at
 from optipath.elements.own_element import couplings_of
 from optipath.errors import PathError
 from optipath.materials.index_domains import FOLLOWS
-from optipath.paths.editing import natural_of, next_by_kind
+from optipath.paths.editing import next_by_kind
 from optipath.paths.path_graph import PathGraph
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import Wiring
+from optipath.elements.element import Element
 from optipath.elements.vertex_chain import VerticesByAngles
 from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
@@ -16,7 +17,8 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
 
 if TYPE_CHECKING:
-    from optipath.elements.element import Element
+    import networkx as nx
+
     from optipath.paths.path_graph import PathGraph
 
 
@@ -54,14 +56,34 @@ def draw(path: PathGraph) -> str:
 
 def element_values(element: Element) -> list[str]:
     """Return the values of an element that are not the usual ones, each with its name."""
+    return [f"{name}={text}" for name, text in _texts(element).items()]
+
+
+def _texts(element: Element) -> dict[str, str]:
     domains = element.domains()
-    shown = []
+    shown = {}
     for f in fields(element):  # type: ignore[arg-type]
         value = getattr(element, f.name)
         if value is None or (isinstance(value, (int, float, str)) and value == f.default):
             continue
-        shown.append(f"{f.name}={value_text(value, domains[f.name].unit)}")
+        shown[f.name] = value_text(value, domains[f.name].unit)
     return shown
+
+
+_UNITS = {"azimuth": "deg", "length": "mm"}
+
+
+def with_texts(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
+    """Return a plain graph whose values are texts, in place; the kind of an element is its text."""
+    abouts = [graph.graph, *graph.nodes.values(), *graph.edges.values()]
+    for about in abouts:
+        if isinstance(element := about.get("element"), Element):
+            about |= {"element": element.kind or type(element).__name__, **_texts(element)}
+        for name, value in about.items():
+            if name in _UNITS or not isinstance(value, (str, int, float)):
+                named = tuple(value) if isinstance(value, dict) and name != "frames" else value
+                about[name] = value_text(named, _UNITS.get(name, ""))
+    return graph
 
 
 def value_text(value: Any, unit: str) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Mapping
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
@@ -18,12 +17,12 @@ from optipath.composer.placement import (
     placement_faults,
     turn_text,
 )
+from optipath.composer.plain_graph import check_element, frames_faults
 from optipath.composer.wiring import LOOPS, Wiring, link_text
-from optipath.elements.element import Element
+from optipath.elements.element import Element, natural_of
 from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import OptipathError, PathError
 from optipath.faults import did_you_mean, listed, shown, there_are
-from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
 from optipath.raising import collecting
 from optipath.values.arrays import changed, joint_shape, read_only, same
@@ -73,10 +72,10 @@ def join(
         f"{what} '{name}' stands on both sides of >>; use two names" for what, name in shared
     ]
     PathError.raise_for(faults)
-    for name, about in second.nodes.items():
-        first.add_node(names[name], **about)
-    for (start, end, key), about in second.edges.items():
-        first.add_edge(names[start], names[end], key=key, **about)
+    first.add_nodes_from((names[name], about) for name, about in second.nodes.items())
+    first.add_edges_from(
+        (names[start], names[end], key, about) for (start, end, key), about in second.edges.items()
+    )
     if ends:
         (start, out_port), (end, in_port) = ends
         first.add_edge(start, names[end], key=(out_port, in_port), azimuth=None, tap=False)
@@ -249,16 +248,6 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
     raise PathError(f"port '{owner}.{port}' does not exist{did_you_mean(f'{owner}.{port}', known)}")
 
 
-def natural_of(element: Element, *, out: bool) -> str:
-    """Return the port by which ``>>`` leaves an element, or enters it; empty for none."""
-    ports, said, unsaid = (
-        (element.outputs, element.natural, "out") if out else (element.inputs, element.entry, "")
-    )
-    if said in ports:
-        return said
-    return ports[0] if len(ports) == 1 and said == unsaid else ""
-
-
 def natural_port(element: Element, owner: str, *, out: bool) -> str:
     """Return the natural port of a node."""
     result = natural_of(element, out=out)
@@ -309,13 +298,8 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
         raise PathError(f"node '{name}' is there already; choose another name")
     check_element(name, element)
     frames = {} if frames is None else frames
-    if not isinstance(frames, Mapping) or [f for f in frames.values() if not isinstance(f, Frame)]:
-        wrong = f"such as {{'in': Frame()}}, not {shown(frames)}"
-        raise PathError(f"frames of '{name}' must be a Frame for each port, {wrong}")
-    frames = dict(frames)
-    for port in frames:
-        check_port(element, name, port, (*element.inputs, *element.outputs))
-    graph.add_node(name, element=element, frames=frames)
+    PathError.raise_for(frames_faults(name, element, frames))
+    graph.add_node(name, element=element, frames=dict(frames))
 
 
 def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap: Any) -> None:
@@ -354,12 +338,6 @@ def _link(graph: nx.MultiDiGraph, leaves: Any, enters: Any, *, taps: bool = True
         feeds = f"'{node}.{port}' {'feeds' if out else 'is fed by'} {_listed(links)}"
         raise PathError(f"{feeds}; name both ends of one{there_are(every)}")
     return links[0]
-
-
-def check_element(name: Any, element: Any) -> None:
-    """Raise unless what is given for a node is an element."""
-    if not isinstance(element, Element):
-        raise PathError(f"node '{name}' must be an element, as Polarizer(), not {shown(element)}")
 
 
 def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]) -> Link:

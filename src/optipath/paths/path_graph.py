@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
@@ -11,7 +10,8 @@ import networkx as nx
 
 from optipath.composer.composer import Composer, checked
 from optipath.composer.path_values import Values
-from optipath.composer.wiring import KEEPABLE, LOOPS
+from optipath.composer.plain_graph import completed, plain, whole
+from optipath.composer.wiring import KEEPABLE
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
 from optipath.errors import ComposerError, ParameterError, PathError
@@ -19,14 +19,16 @@ from optipath.faults import shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
+from optipath.paths.drawing import with_texts
 from optipath.paths.reversed import reversed_graph
 from optipath.raising import check_named, needing
-from optipath.values.arrays import entries_of, same
-from optipath.values.cases import Case
+from optipath.values.arrays import same
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
     from os import PathLike
+
+    from networkx.classes.reportviews import NodeView, OutMultiEdgeView
 
     from optipath.elements.ends import Source
     from optipath.light.frame import Frame
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
     from optipath.light.mueller import Mueller
     from optipath.plan.light_paths import LightPath
     from optipath.plan.plan import Plan
+    from optipath.values.cases import Case
     from optipath.values.parameters import Parameter
 
 
@@ -76,18 +79,13 @@ class PathGraph(Chainable):
         declared: Sequence[str] = (),
         loops: str = "refuse",
     ) -> None:
-        if not isinstance(description, str):
-            raise PathError(f"the description of a path must be a text, not {shown(description)}")
-        cases = {} if cases is None else cases
-        if not isinstance(cases, Mapping) or [c for c in cases.values() if not isinstance(c, Case)]:
-            raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
-        self.description = description
-        self.cases = dict(cases)
-        PathError.raise_for(unknown("loops", loops, LOOPS))
-        names = entries_of("declared", "names of parameters", declared, PathError)
-        if [name for name in names if not isinstance(name, str)]:
-            raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
-        self._graph = nx.MultiDiGraph(declared=names, loops=loops, choices={})
+        faults: list[str] = []
+        about = {"description": description, "cases": cases, "declared": declared, "loops": loops}
+        about = whole(about, faults)
+        PathError.raise_for(faults)
+        self.description: str = about.pop("description")
+        self.cases: dict[str, Case] = dict(about.pop("cases"))
+        self._graph = nx.MultiDiGraph(**about)
         # What the graph has been composed to, until it changes.
         self._plans: dict[str | Composer, Plan] = {}
         self._gathered: Values | None = None
@@ -100,6 +98,81 @@ class PathGraph(Chainable):
         and carry ``azimuth`` and ``tap``.
         """
         return self._graph.copy(as_view=True)
+
+    @classmethod
+    def from_networkx(cls, graph: nx.DiGraph) -> Self:
+        """Return the path of a networkx graph of elements, which is copied.
+
+        Parameters
+        ----------
+        graph : networkx.MultiDiGraph or networkx.DiGraph
+            Nodes, named by texts without a dot, have an ``element``, and perhaps ``frames``. Edges
+            have an ``out_port`` and an ``in_port``, the natural ones by default as ``>>`` takes
+            them, and perhaps ``azimuth``, ``length`` and ``tap``; the graph perhaps ``loops``,
+            ``description``, ``cases``, ``declared`` and ``choices``. Other attributes are kept.
+
+        Returns
+        -------
+        PathGraph
+
+        Raises
+        ------
+        PathError
+            With everything that is missing, misspelt or wrong, by node or edge and attribute.
+
+        Examples
+        --------
+        >>> import networkx as nx
+        >>> import optipath as op
+        >>> graph = nx.DiGraph([("lamp", "filter"), ("filter", "eye")])
+        >>> elements = {"lamp": op.Source(2.0), "filter": op.Polarizer(), "eye": op.Detector()}
+        >>> nx.set_node_attributes(graph, elements, "element")
+        >>> op.PathGraph.from_networkx(graph)
+        <PathGraph: lamp >> filter >> eye>
+        """
+        own = completed(graph)
+        path = cls(own.graph.pop("description"), own.graph.pop("cases"))
+        path._graph = own
+        offered = path.choices.values()
+        PathError.raise_for([fault for one in offered for fault in choice_faults(own, one)])
+        return path
+
+    def to_networkx(self, *, text: bool = False) -> nx.MultiDiGraph:
+        """Return a plain networkx graph of the path, which is a copy and anybody's to change.
+
+        Parameters
+        ----------
+        text : bool, optional
+            Whether values are texts, for files such as GraphML and JSON: ``element`` is the kind,
+            and its fields follow by name. It is not read back; `to_toml` is.
+
+        Returns
+        -------
+        networkx.MultiDiGraph
+            With the attributes that `from_networkx` takes, where there is something to say.
+
+        Examples
+        --------
+        >>> import networkx as nx
+        >>> import optipath as op
+        >>> graph = (op.Source() >> op.Polarizer("30 deg") >> op.Detector()).to_networkx()
+        >>> print(*nx.topological_sort(graph))
+        source polarizer detector
+        >>> graph.edges["source", "polarizer", 0]
+        {'out_port': 'out', 'in_port': 'in'}
+        """
+        graph = plain(self._graph, description=self.description, cases=dict(self.cases))
+        return with_texts(graph) if text else graph
+
+    @property
+    def nodes(self) -> NodeView:
+        """The nodes as networkx has them, ``path.nodes["X1"]["element"]``; not to be changed."""
+        return self.graph.nodes
+
+    @property
+    def edges(self) -> OutMultiEdgeView:
+        """The links as networkx has them, keyed as in `graph`; not to be changed."""
+        return self.graph.edges
 
     @property
     def parameters(self) -> dict[str, Parameter]:
