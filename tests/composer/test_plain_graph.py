@@ -27,9 +27,9 @@ def malus():
 
 
 def faults_of(graph):
-    with pytest.raises(op.PathError) as composing:
+    with pytest.raises(op.errors.PathError) as composing:
         op.Composer().compose(graph)
-    with pytest.raises(op.PathError) as reading:
+    with pytest.raises(op.errors.PathError) as reading:
         op.PathGraph.from_networkx(graph)
     assert composing.value.faults == reading.value.faults
     return composing.value.faults
@@ -121,7 +121,7 @@ def test_a_graph_without_directions_is_refused_with_the_cure(graph, message):
 
 def test_what_is_no_graph_is_refused():
     for other in (3, None, "graph", {}, op.Polarizer()):
-        with pytest.raises(op.PathError, match="made of a networkx graph"):
+        with pytest.raises(op.errors.PathError, match="made of a networkx graph"):
             op.PathGraph.from_networkx(other)
         with pytest.raises(op.OptipathError, match="MultiDiGraph is composed"):
             op.Composer().compose(other)
@@ -351,5 +351,5 @@ def test_mutilated_graphs_are_taken_or_refused_in_a_sentence():
     for _ in range(500):
         graph = mutilated(rng)
         for read in (op.PathGraph.from_networkx, op.Composer().compose):
-            with suppress(op.PathError):
+            with suppress(op.errors.PathError):
                 read(graph)

@@ -76,6 +76,11 @@ film: op.Light = (
 ).trace(wavelength="550 nm")
 plate_back: op.Retarder = op.Retarder(1.0, 0.3).reversed()
 longer: op.PathGraph = op.PathGraph() >> op.Source() >> op.Polarizer() >> op.Detector()
+of_networkx: op.PathGraph = op.PathGraph.from_networkx(chained.to_networkx())
+texts: Any = chained.to_networkx(text=True)
+kinds: list[str] = [element.kind for _, element in chained.nodes(data="element")]
+links: list[Any] = [*chained.edges(keys=True, data=True)]
+by_graph: op.Plan = op.Composer().compose(chained.to_networkx())
 light: op.Light = path.trace(theta=0.1, angle=[[0.1], [0.2]])
 lights: dict[str, op.Light] = path.trace_all(theta=0.1, angle=0.2)
 matrix: op.Mueller = path.mueller(theta=0.1, angle=0.2) @ op.Polarizer(0.1).mueller()

@@ -19,14 +19,14 @@ from optipath.values.units import format_quantity
 if TYPE_CHECKING:
     import networkx as nx
 
-    from optipath.paths.path_graph import PathGraph
+    from optipath.composer.composer import Path
 
 
 _FEW = 4
 """As many numbers as light has."""
 
 
-def draw(path: PathGraph) -> str:
+def draw(path: Path) -> str:
     """Return the drawing.
 
     >>> import optipath as op
@@ -38,10 +38,10 @@ def draw(path: PathGraph) -> str:
     travelled = [name for name, _ in wiring.order]
     order = list(dict.fromkeys([*travelled, *wiring.elements]))
     name_width = max(map(len, order))
-    kind_width = max(len(path.element(name).kind) for name in order)
+    kind_width = max(len(element.kind) for element in wiring.elements.values())
     lines = []
     for name in order:
-        element = path.element(name)
+        element = wiring.elements[name]
         described = f"{name.ljust(name_width)}  {element.kind.ljust(kind_width)}  "
         lines.append((described + "  ".join(element_values(element))).rstrip())
         for link in sorted(graph.out_edges(name, keys=True)):

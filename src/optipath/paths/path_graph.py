@@ -15,7 +15,7 @@ from optipath.composer.wiring import KEEPABLE
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
 from optipath.errors import ComposerError, ParameterError, PathError
-from optipath.faults import shown, unknown
+from optipath.faults import Fault, shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
@@ -80,8 +80,8 @@ class PathGraph(Chainable):
         loops: str = "refuse",
     ) -> None:
         faults: list[str] = []
-        about = {"description": description, "cases": cases, "declared": declared, "loops": loops}
-        about = whole(about, faults)
+        given = {"description": description, "cases": cases, "declared": declared, "loops": loops}
+        about = whole(given, faults)
         PathError.raise_for(faults)
         self.description: str = about.pop("description")
         self.cases: dict[str, Case] = dict(about.pop("cases"))
@@ -133,8 +133,11 @@ class PathGraph(Chainable):
         own = completed(graph)
         path = cls(own.graph.pop("description"), own.graph.pop("cases"))
         path._graph = own
-        offered = path.choices.values()
-        PathError.raise_for([fault for one in offered for fault in choice_faults(own, one)])
+        for name, choice in path.choices.items():
+            wrong = [
+                Fault.of(fault).under(f"choice '{name}'") for fault in choice_faults(own, choice)
+            ]
+            PathError.raise_for(wrong)
         return path
 
     def to_networkx(self, *, text: bool = False) -> nx.MultiDiGraph:
