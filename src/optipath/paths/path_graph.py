@@ -10,7 +10,7 @@ import networkx as nx
 
 from optipath.composer.composer import Composer, checked
 from optipath.composer.path_values import Values
-from optipath.composer.plain_graph import completed, plain, whole
+from optipath.composer.plain_graph import completed, whole
 from optipath.composer.wiring import KEEPABLE
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
@@ -19,16 +19,14 @@ from optipath.faults import Fault, shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
-from optipath.paths.drawing import with_texts
+from optipath.paths.graph_face import GraphFace
 from optipath.paths.reversed import reversed_graph
 from optipath.raising import check_named, needing
 from optipath.values.arrays import same
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
-
-    from networkx.classes.reportviews import NodeView, OutMultiEdgeView
 
     from optipath.elements.ends import Source
     from optipath.light.frame import Frame
@@ -40,7 +38,7 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
 
 
-class PathGraph(Chainable):
+class PathGraph(GraphFace):
     """An optical path: named elements, linked from out-port to in-port.
 
     Parameters
@@ -90,15 +88,6 @@ class PathGraph(Chainable):
         self._plans: dict[str | Composer, Plan] = {}
         self._gathered: Values | None = None
 
-    @property
-    def graph(self) -> nx.MultiDiGraph:
-        """The networkx graph, to query and not to change.
-
-        Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
-        and carry ``azimuth`` and ``tap``.
-        """
-        return self._graph.copy(as_view=True)
-
     @classmethod
     def from_networkx(cls, graph: nx.DiGraph) -> Self:
         """Return the path of a networkx graph of elements, which is copied.
@@ -140,43 +129,6 @@ class PathGraph(Chainable):
             PathError.raise_for(wrong)
         return path
 
-    def to_networkx(self, *, text: bool = False) -> nx.MultiDiGraph:
-        """Return a plain networkx graph of the path, which is a copy and anybody's to change.
-
-        Parameters
-        ----------
-        text : bool, optional
-            Whether values are texts, for files such as GraphML and JSON: ``element`` is the kind,
-            and its fields follow by name. It is not read back; `to_toml` is.
-
-        Returns
-        -------
-        networkx.MultiDiGraph
-            With the attributes that `from_networkx` takes, where there is something to say.
-
-        Examples
-        --------
-        >>> import networkx as nx
-        >>> import optipath as op
-        >>> graph = (op.Source() >> op.Polarizer("30 deg") >> op.Detector()).to_networkx()
-        >>> print(*nx.topological_sort(graph))
-        source polarizer detector
-        >>> graph.edges["source", "polarizer", 0]
-        {'out_port': 'out', 'in_port': 'in'}
-        """
-        graph = plain(self._graph, description=self.description, cases=dict(self.cases))
-        return with_texts(graph) if text else graph
-
-    @property
-    def nodes(self) -> NodeView:
-        """The nodes as networkx has them, ``path.nodes["X1"]["element"]``; not to be changed."""
-        return self.graph.nodes
-
-    @property
-    def edges(self) -> OutMultiEdgeView:
-        """The links as networkx has them, keyed as in `graph`; not to be changed."""
-        return self.graph.edges
-
     @property
     def parameters(self) -> dict[str, Parameter]:
         """The parameters of all elements and links, by name, bound ones included."""
@@ -192,29 +144,12 @@ class PathGraph(Chainable):
         """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
         return str(self._graph.graph["loops"])
 
-    def element(self, name: str) -> Element:
-        """Return the element of a node.
-
-        Raises a `PathError` if there is no such node.
-        """
-        return editing.element_at(self._graph, name)
-
     def __getitem__(self, name: str) -> Node:
         name, dot, port = name.partition(".") if isinstance(name, str) else (name, "", "")
         element = self.element(name)
         if dot:
             editing.check_port(element, name, port, (*element.inputs, *element.outputs))
         return Node(self, name, port)
-
-    def __contains__(self, name: object) -> bool:
-        return name in self._graph
-
-    def __iter__(self) -> Iterator[str]:
-        """Go through the names of the nodes, in the order in which they were added."""
-        return iter(self._graph)
-
-    def __len__(self) -> int:
-        return len(self._graph)
 
     def add(
         self,
