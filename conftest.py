@@ -17,7 +17,7 @@ OF_JAX = [
 ]
 
 # User code that is type-checked, and run by a test: not by every worker that looks for examples.
-collect_ignore = ["tests/typing/api.py", *([] if find_spec("jax") else OF_JAX)]
+collect_ignore = ["tests/typing", *([] if find_spec("jax") else OF_JAX)]
 
 
 def pytest_ignore_collect(collection_path: Path) -> bool | None:

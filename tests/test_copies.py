@@ -47,6 +47,7 @@ FOUND = {
     "EffectiveIndex": lambda: op.effective_index(0.2 + 3.4j, 0.5),
     "Frame": op.Frame,
     "FresnelAmplitudes": lambda: op.fresnel_amplitudes(0.2 + 3.4j, 0.8, 0.6),
+    "FresnelEntries": lambda: op.fresnel_reflection(0.2 + 3.4j, 0.8, 0.6),
     "Hemisphere": lambda: op.measure(op.Sample([(1j, 0.3)]), 0.5, photons=1000, sensor=4),
     "LightPath": lambda: PATH.paths()[0],
     "LuChipman": lambda: op.Mueller(np.eye(4)).lu_chipman(),

@@ -8,12 +8,16 @@ import tomllib
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import networkx as nx
 import pytest
 
 import optipath as op
+from optipath.engines.choice import ENGINES, REGISTRY
+from optipath.kernels.catalog import METHODS, REFLECTION
+from optipath.light.conventions import CONVENTIONS, ConventionName
+from optipath.plots.hemisphere_side import QUANTITIES, PixelName
 from tables import rows
 
 SOURCE = Path(op.__file__).parent
@@ -282,5 +286,25 @@ def test_no_file_is_longer_than_900_lines():
     assert {name: length for name, length in lengths.items() if length > 900} == {}
 
 
-def test_the_user_code_that_is_type_checked_runs():
-    runpy.run_path(str(Path(__file__).parent / "typing" / "api.py"))
+@pytest.mark.parametrize("name", ["api", "first_lines", "refused"])
+def test_the_user_code_that_is_type_checked_runs(name, capsys):
+    file = Path(__file__).parent / "typing" / f"{name}.py"
+    runpy.run_path(str(file))
+    readme = (PROJECT.parent / "README.md").read_text("utf-8")
+    first, printed = re.findall(r"^```(?:python|text)\n(.*?)^```$", readme, re.M | re.S)[:2]
+    if name == "first_lines":
+        assert first.removeprefix("import optipath as op\n") in file.read_text("utf-8")
+        assert capsys.readouterr().out == printed
+
+
+def test_words_of_a_checker_are_those_of_the_library():
+    assert tuple(REGISTRY) == ENGINES[1:]
+    assert tuple(REFLECTION.methods) == METHODS
+    assert tuple(CONVENTIONS) == get_args(ConventionName)
+    assert tuple(QUANTITIES) == get_args(PixelName)
+
+
+def test_what_light_has_is_found_on_its_class():
+    assert {"stokes", "frame", "dop", "S0"} <= {*dir(op.Light)}
+    assert len([name for name in dir(op.Light) if not name.startswith("_")]) >= 40
+    assert {"matrix", "frame_in", "frame_out"} <= {*dir(op.Mueller)}

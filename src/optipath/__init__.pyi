@@ -89,6 +89,7 @@ from optipath.paths.polarization import polarization as polarization
 from optipath.elements.fresnel import fresnel_reflection as fresnel_reflection
 from optipath.elements.fresnel import fresnel_transmission as fresnel_transmission
 from optipath.elements.fresnel import fresnel_amplitudes as fresnel_amplitudes
+from optipath.elements.fresnel import FresnelEntries as FresnelEntries
 from optipath.elements.fresnel import FresnelAmplitudes as FresnelAmplitudes
 from optipath.elements.fresnel import refraction_angle as refraction_angle
 from optipath.elements.fresnel import effective_index as effective_index

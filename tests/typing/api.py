@@ -78,7 +78,7 @@ plate_back: op.Retarder = op.Retarder(1.0, 0.3).reversed()
 longer: op.PathGraph = op.PathGraph() >> op.Source() >> op.Polarizer() >> op.Detector()
 of_networkx: op.PathGraph = op.PathGraph.from_networkx(chained.to_networkx())
 texts: Any = chained.to_networkx(text=True)
-kinds: list[str] = [element.kind for _, element in chained.nodes(data="element")]
+kinds: list[str] = [data["element"].kind for data in chained.nodes.values()]
 links: list[Any] = [*chained.edges(keys=True, data=True)]
 by_graph: op.Plan = op.Composer().compose(chained.to_networkx())
 light: op.Light = path.trace(theta=0.1, angle=[[0.1], [0.2]])
@@ -114,7 +114,7 @@ uncertain: op.Propagation = malus.propagate(
 )
 spread: np.ndarray = uncertain.covariance + uncertain.uncertainty_of("dop")[..., None, None]
 shares: dict[str, Any] = uncertain.contributions | uncertain.contributions_to("S0")
-in_samples: bool = malus.propagate(
+in_samples: np.ndarray = malus.propagate(
     angle=(0.3, 0.01), method="monte-carlo", samples=100, seed=3, composer=op.Composer()
 ).is_doubtful("intensity")
 varied: op.Light = op.load_preset("npgr026", case=8).trace(delta=[0.1, 0.2])

@@ -218,7 +218,7 @@ class Chosen:
         """The words that were given for choices of places, by name."""
         return {name: self.values[name] for name in self.opened.choices if name in self.values}
 
-    def path(self, reads: str | None = None, others: Collection[str] = ()) -> PathGraph:
+    def path(self, reads: Any = None, others: Collection[str] = ()) -> PathGraph:
         """Return the path, bound to single values, and with other readings if they are given."""
         varied = {*self.axes, *others}
         bound = bound_preset(self.opened, self.preset, self.case, self.values, varied)

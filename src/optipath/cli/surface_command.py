@@ -287,7 +287,7 @@ def _tell(
 
 
 def _draw_map(
-    sample: str, quantity: str, side: str, out: Path | None, *, as_json: bool, **options: Any
+    sample: str, quantity: Any, side: Any, out: Path | None, *, as_json: bool, **options: Any
 ) -> None:
     """Walk photons from one direction, and draw what goes into each direction."""
     if out is None:

@@ -201,7 +201,7 @@ class ChoiceOutcome:
 
 
 def decided(
-    tolerance: float, side: str, walk: Walk, progress: Callable[[int, int], None]
+    tolerance: float, side: Any, walk: Walk, progress: Callable[[int, int], None]
 ) -> ChoiceOutcome:
     """Return which model suffices."""
     beam, angle = walk.run.beam, walk.incidence.given

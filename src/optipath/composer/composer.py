@@ -6,7 +6,7 @@ import gc
 from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, get_args
 
 import networkx as nx
 
@@ -40,8 +40,11 @@ from optipath.values.precision import precision_name, whole_number
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.composer.wiring import Ways
-    from optipath.engines.program import Program, Reduction, Tolerance
+    from optipath.composer.wiring import Keep, Loops, Ways
+    from optipath.engines.choice import EngineName
+    from optipath.engines.program import Model, Program, Reduction, Tolerance
+    from optipath.kernels.catalog import Method
+    from optipath.values.precision import Precision
 
 
 def checked(
@@ -135,11 +138,12 @@ def _loop_faults(ports: Ways) -> Iterator[str]:
         )
 
 
-CHOICES = {
+Composing: TypeAlias = Literal["stokes", "jones"]
+CHOICES: dict[str, tuple[str, ...]] = {
     "method": METHODS,
     "model": ("auto", *MODELS),
     "engine": ENGINES,
-    "composing": ("stokes", "jones"),
+    "composing": get_args(Composing),
     "loops": LOOPS,
     "keep": KEEPABLE,
 }
@@ -149,7 +153,7 @@ class Path(Protocol):
     """Anything that has a graph of elements."""
 
     @property
-    def graph(self) -> nx.MultiDiGraph:
+    def graph(self) -> nx.MultiDiGraph[str]:
         """The graph: nodes with ``element`` and ``frames``, links with ``azimuth`` and ``tap``."""
 
 
@@ -207,15 +211,15 @@ class Composer:
     ('textbook', 'numpy')
     """
 
-    method: str = "stable"
-    model: str = "auto"
-    engine: str = "auto"
-    dtype: Any = "float64"
-    composing: str = "stokes"
+    method: Method = "stable"
+    model: Literal["auto"] | Model = "auto"
+    engine: EngineName = "auto"
+    dtype: Precision = "float64"
+    composing: Composing = "stokes"
     tolerance: float | None = None
     threads: int = 1
-    loops: str | None = None
-    keep: str = "ends"
+    loops: Loops | None = None
+    keep: Keep = "ends"
 
     def __post_init__(self) -> None:
         faults: list[str] = []
@@ -248,7 +252,7 @@ class Composer:
             return [f"{what} is exact and takes no tolerance; leave one of them out"]
         return []
 
-    def compose(self, path: Path | nx.DiGraph) -> Plan:
+    def compose(self, path: Path | nx.DiGraph[Any]) -> Plan:
         """Return the plan of a path.
 
         Parameters
@@ -289,14 +293,14 @@ class Composer:
             taps=tuple(map(link_text, wiring.taps)),
             method=self.method,
             composing=self.composing,
-            dtype=self.dtype,
+            dtype=str(self.dtype),
             chosen=self.engine,
             threads=self.threads,
         )
 
     def _reduced(self, whole: Program) -> tuple[Reduction, Tolerance | None]:
         """Return what is run, and what may be taken in its place."""
-        exact = reduced(whole, self.model, self.composing, self.dtype)
+        exact = reduced(whole, self.model, self.composing, str(self.dtype))
         most = self.tolerance
         if most is not None and (instead := tolerated(exact, self.model, most)):
             return exact, instead

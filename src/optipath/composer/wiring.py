@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from heapq import heapify, heappop, heappush
 from itertools import chain
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, get_args
 
 import networkx as nx
 
@@ -23,11 +23,13 @@ Link: TypeAlias = tuple[str, str, tuple[str, str]]
 """(start node, end node, (out-port, in-port)), as networkx keys the edges."""
 
 
-LOOPS = ("refuse", "sum")
+Loops: TypeAlias = Literal["refuse", "sum"]
+LOOPS: tuple[Loops, ...] = get_args(Loops)
 """What becomes of light that goes round: an error, or the sum over all rounds."""
 
 
-KEEPABLE = ("ends", "all")
+Keep: TypeAlias = Literal["ends", "all"]
+KEEPABLE: tuple[Keep, ...] = get_args(Keep)
 """Which light is kept: that at the ends of a path, or on every link as well."""
 
 

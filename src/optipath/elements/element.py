@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, dataclass_transform, overload
+from typing import TYPE_CHECKING, Any, ClassVar, Never, Self, TypeVar, dataclass_transform, overload
 
 from optipath.elements.alone import mueller_alone
 from optipath.elements.coupling import register, vanishes
@@ -37,7 +37,9 @@ if TYPE_CHECKING:
 
     from optipath.elements.coupling import Coupling
     from optipath.elements.vertex_place import VertexFrame
+    from optipath.kernels.catalog import Method
     from optipath.light.frame import Frame
+    from optipath.paths.path_graph import PathGraph
     from optipath.values.agreement import Agreement
     from optipath.values.domains import Domain
     from optipath.values.operands import Operation
@@ -48,16 +50,16 @@ class Chainable:
 
     __slots__ = ()
 
-    def __rshift__(self, behind: Any) -> Any:
+    def __rshift__(self, behind: Element | NamedElement | PathGraph) -> PathGraph:
         """Return the path in which light goes on from here to what stands behind."""
         return begun(self) >> behind
 
-    def __rrshift__(self, before: object) -> Any:
+    def __rrshift__(self, before: Never) -> PathGraph:
         """Refuse what is not chainable."""
         return begun(before)
 
 
-def begun(first: object) -> Any:
+def begun(first: object) -> PathGraph:
     """Return the path of one element, such as a chain begins with."""
     if isinstance(first, type) and issubclass(first, Chainable):
         raise PathError(f"{first.__name__} is a class; write {first.__name__}(...) in a chain")
@@ -295,7 +297,7 @@ class Element(Chainable):
         enters: str = "in",
         leaves: str = "",
         *,
-        method: str = "stable",
+        method: Method = "stable",
         frame_in: Frame | None = None,
         frame_out: Frame | None = None,
     ) -> Mueller:
@@ -414,7 +416,7 @@ class Element(Chainable):
         frame = arriving.frame if isinstance(arriving, Light) else arriving.frame_out
         return mueller_alone(self, before=frame) @ arriving
 
-    def __rmatmul__(self, other: object) -> Mueller:
+    def __rmatmul__(self, other: Mueller) -> Mueller:
         """Return the Mueller matrix of the element and of what stands behind it."""
         if not isinstance(other, Mueller):
             raise LightError(why_refused(other))

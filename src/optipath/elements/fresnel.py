@@ -26,18 +26,37 @@ from optipath.values.precision import precision
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from optipath.kernels.catalog import Method
     from optipath.kernels.kernel import KernelFamily
     from optipath.kernels.primitives import KernelFunction, Primitives
     from optipath.materials.material import Material
+    from optipath.values.precision import Precision
+
+
+class FresnelEntries(NamedTuple):
+    """The entries of ``[[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]``.
+
+    Attributes
+    ----------
+    A, B : ndarray
+        Half of the sum and of the difference of the powers along s and along p.
+    C, S : ndarray
+        What the field along s and that along p have in common: in phase, and a quarter apart.
+    """
+
+    A: npt.NDArray[Any]
+    B: npt.NDArray[Any]
+    C: npt.NDArray[Any]
+    S: npt.NDArray[Any]
 
 
 def fresnel_reflection(
     index: npt.ArrayLike,
     cos_incidence: npt.ArrayLike,
     sin_incidence: npt.ArrayLike,
-    method: str = "stable",
-    dtype: npt.DTypeLike = "float64",
-) -> tuple[npt.NDArray[Any], ...]:
+    method: Method = "stable",
+    dtype: Precision = "float64",
+) -> FresnelEntries:
     """Return (A, B, C, S) of the Mueller matrix of a reflection.
 
     The matrix is ``[[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]`` in
@@ -57,8 +76,8 @@ def fresnel_reflection(
 
     Returns
     -------
-    tuple of four ndarray
-        Of the broadcast shape.
+    FresnelEntries
+        A tuple of four, of the broadcast shape.
 
     Raises
     ------
@@ -78,9 +97,9 @@ def fresnel_transmission(
     index: npt.ArrayLike,
     cos_incidence: npt.ArrayLike,
     sin_incidence: npt.ArrayLike,
-    method: str = "stable",
-    dtype: npt.DTypeLike = "float64",
-) -> tuple[npt.NDArray[Any], ...]:
+    method: Method = "stable",
+    dtype: Precision = "float64",
+) -> FresnelEntries:
     """Return (A, B, C, S) of the Mueller matrix of the power that a boundary lets through.
 
     The matrix has the form that `fresnel_reflection` gives; ``A + B`` and ``A - B`` are
@@ -96,8 +115,8 @@ def fresnel_transmission(
 
     Returns
     -------
-    tuple of four ndarray
-        Of the broadcast shape.
+    FresnelEntries
+        A tuple of four, of the broadcast shape.
 
     Raises
     ------
@@ -114,8 +133,8 @@ def fresnel_transmission(
 
 
 def _fresnel(
-    family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: npt.DTypeLike
-) -> tuple[npt.NDArray[Any], ...]:
+    family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: Precision
+) -> FresnelEntries:
     kernel, kind = family.by_method(method), precision(dtype)
     for value in (index, cos, sin):
         check_known("Fresnel's equations of a Mueller matrix", value)
@@ -130,7 +149,7 @@ def _fresnel(
         kernel, left = kernel.specialised(values, lambda number: not np.any(number))
         numbers = kernel.made_for(NUMPY)(*left)
         (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
-    return tuple(np.broadcast_to(number, shape).astype(kind) for number in (A, B, C, S))
+    return FresnelEntries(*[np.broadcast_to(n, shape).astype(kind) for n in (A, B, C, S)])
 
 
 def refraction_angle(

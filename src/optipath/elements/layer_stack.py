@@ -50,6 +50,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.elements.coupling import Coupling
+    from optipath.kernels.catalog import Method
     from optipath.values.domains import Domain
     from optipath.values.parameters import Resolved
 
@@ -141,7 +142,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         light: Light | npt.ArrayLike | None = None,
         enters: str = "in",
         *,
-        method: str = "stable",
+        method: Method = "stable",
     ) -> npt.NDArray[np.float64]:
         """Return the share of light that stays in each layer: what enters it less what leaves it.
 

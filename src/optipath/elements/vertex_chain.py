@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -226,10 +226,11 @@ def _leg_fault(owner: str, leg: npt.NDArray[Any], place: int, where: str) -> str
 
 
 VERTICES = VerticesDomain("coordinate")
-BAD = ("refuse", "mask")
+IfBad: TypeAlias = Literal["refuse", "mask"]
+BAD: tuple[IfBad, ...] = get_args(IfBad)
 """What becomes of chains that cannot be: an error, or light that is NaN."""
 Vertices: TypeAlias = Annotated[Quantity | VerticesByAngles, VERTICES]
-Bad: TypeAlias = Annotated[str, Choice("what becomes of chains that cannot be", words=BAD)]
+Bad: TypeAlias = Annotated[IfBad, Choice("what becomes of chains that cannot be", words=BAD)]
 
 
 _AT_ONCE = 1 << 11

@@ -7,7 +7,7 @@ path as floats, by NumPy (plus an overhead per operation and batch) and by Numba
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 from optipath.engines.formula import Engine
 from optipath.engines.llvm_engine import LlvmEngine
@@ -36,7 +36,8 @@ REGISTRY: dict[str, Engine] = {
 }
 
 
-ENGINES = ("auto", *REGISTRY)
+EngineName: TypeAlias = Literal["auto", "numpy", "numba", "jax"]
+ENGINES: tuple[EngineName, ...] = get_args(EngineName)
 
 FLOATS = "floats"
 """What runs one path, and a handful one by one: functions of plain Python floats."""

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from math import inf
 from operator import and_
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
 
 import numpy as np
 
@@ -372,7 +372,8 @@ class LoopSolver:
         return self.carrier.act(structure, self.numbers(step.evaluation), state, count)
 
 
-MODELS = ("scalar", "sp", "linear", "full")
+Model: TypeAlias = Literal["scalar", "sp", "linear", "full"]
+MODELS: tuple[Model, ...] = get_args(Model)
 """What is carried, the smallest first: S0; S0 and S1; S0, S1 and S2; all four."""
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias, get_args
 
 from optipath.kernels import filters, medium, vertex_chain
 from optipath.kernels.carriers.structures import (
@@ -114,7 +114,8 @@ TRANSMISSION = _fresnel(
     amplitude=(textbook.amplitude_transmission, (("00000", _COS), _NO_S_IF_LOSSLESS)),
     textbook=(textbook.textbook_transmission, ()),
 )
-METHODS = tuple(REFLECTION.methods)
+Method: TypeAlias = Literal["stable", "compensated", "amplitude", "textbook"]
+METHODS: tuple[Method, ...] = get_args(Method)
 
 _OF_STACK = {"reflected": "reflection", "transmitted": "transmission", "absorbed": "absorption"}
 
@@ -215,7 +216,7 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
     what = f"stack {_OF_STACK[wanted]}"
     lossy = ", absorbing" if absorbing else ""
     structure = None if wanted == "absorbed" else DEPOLARIZING_BLOCK
-    methods = {}
+    methods: dict[str, Kernel] = {}
     for method in METHODS:
         reflection, transmission, behind = (family.methods[method] for family in _FACES)
         made_by = Stack(reflection, transmission, behind, wanted, measured, absorbing)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import pi, sqrt
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, get_args
 
 from optipath.kernels.carriers.structures import BLOCK, turn_linear
 from optipath.kernels.exponential import complementary_error
@@ -157,7 +157,8 @@ def beckmann(xp: Primitives) -> Callable[[Any, Any, Any, Any], Any]:
 _STEEPEST = 32.0
 """A ratio of a direction's slope to the surface's beyond which nothing at all is masked."""
 
-MASKINGS = ("smith", "separate", "none")
+Masking: TypeAlias = Literal["smith", "separate", "none"]
+MASKINGS: tuple[Masking, ...] = get_args(Masking)
 """How the masking of two directions goes together: by one height, by itself, or not at all."""
 
 

@@ -62,7 +62,7 @@ def bench(
     result = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
 
     @cache
-    def plan_of(engine: str, dtype: str, method: str) -> Plan:
+    def plan_of(engine: Any, dtype: Any, method: Any) -> Plan:
         # Kept, so that nothing is compiled for one batch after the other.
         return Composer(engine=engine, dtype=dtype, method=method, threads=threads).compose(path)
 

@@ -116,7 +116,7 @@ def path_chart(
     of_region = lru_cache(maxsize=len(rounded))(partial(trial, path, count=effort.samples))
 
     def off(runner: Composer, region: Region | None) -> Errors:
-        return path_errors(runner, of_region(region, rounded[runner.dtype]), runner.dtype)
+        return path_errors(runner, of_region(region, rounded[str(runner.dtype)]), str(runner.dtype))
 
     runs = [
         (runner, partial(p.run_all, **values)) for runner, p in zip(runners, plans, strict=True)
@@ -135,12 +135,12 @@ def interface_chart(
     runs: list[Run] = []
     for runner in contenders(("stokes",), ("numpy",)):
         kernel = REFLECTION.by_method(runner.method)
-        samples = REGIONS[0].samples(PATHS, runner.dtype)
+        samples = REGIONS[0].samples(PATHS, str(runner.dtype))
         runs.append((runner, partial(matrix_numbers, kernel, samples)))
     least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
 
     def off(runner: Composer, region: Region) -> Errors:
-        return interface_errors(runner.method, region, runner.dtype, effort.samples)
+        return interface_errors(runner.method, region, str(runner.dtype), effort.samples)
 
     regions = {region.name: region for region in REGIONS}
     return _chart({}, "one interface", effort, runs, least, regions, off, progress, keep)
@@ -250,7 +250,7 @@ def kernel_operations(kernel: Kernel, arguments: int) -> Counter[str]:
     return Counter(symbol.operation for symbol in recorder.symbols)
 
 
-DTYPE = "float64"
+DTYPE: Any = "float64"
 DISTANCES = tuple(float(10.0**power) for power in np.arange(-12, -0.75, 0.5))
 """In radians, from 1e-12 to 1e-1: nearer than that float64 has no angles of its own."""
 

@@ -79,7 +79,8 @@ WORDS = ("method", "dtype", "engine", "composing")
 
 
 def contenders(
-    composing: tuple[str, ...] = CHOICES["composing"], engines: tuple[str, ...] = ("numpy", "numba")
+    composing: tuple[Any, ...] = CHOICES["composing"],
+    engines: tuple[Any, ...] = ("numpy", "numba"),
 ) -> list[Composer]:
     """Return all that this machine can run, but JAX, which compiles anew for every path.
 

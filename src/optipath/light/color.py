@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -31,7 +31,10 @@ _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 _WHITE = "give white=, the light without the sample, or op.Spectrum.illuminant('D65')"
 
-OUT_OF_GAMUT = ("refuse", "clip", "scale", "keep")
+ObserverName: TypeAlias = Literal["CIE 1931 2 deg"]
+Beyond: TypeAlias = Literal["dark", "nearest"]
+OutOfGamut: TypeAlias = Literal["refuse", "clip", "scale", "keep"]
+OUT_OF_GAMUT: tuple[OutOfGamut, ...] = get_args(OutOfGamut)
 
 _STEP = 0.5 / 255
 """Half of a step of eight bits, by which no display differs."""
@@ -212,7 +215,7 @@ def _sums(light: Light, observer: Observer, outside: str) -> Any:
 
 def _weights(grid: Array, observer: Observer, outside: str) -> Array:
     """Return what each wavelength adds to X, Y and Z, in the order of the grid."""
-    ValueFault.raise_for(unknown("outside", outside, ("dark", "nearest")))
+    ValueFault.raise_for(unknown("outside", outside, get_args(Beyond)))
     rises = grid[-1] > grid[0]
     rising = NANOMETRES * (grid if rises else grid[::-1])
     weights = observer.weights(rising, nearest=outside == "nearest")

@@ -6,7 +6,7 @@ change, so that a map is its own inverse.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -57,6 +57,11 @@ CONVENTIONS = {
 """Those that light and Mueller matrices can be given in, by name."""
 
 
+ConventionName: TypeAlias = Literal[
+    "mitsuba", "hecht", "ellipsometry", "py_pol", "pypolar", "pyelli", "scatmech", "tmm"
+]
+
+
 def signs_of(convention: Any) -> Array:
     """Return what a convention multiplies S0, S1, S2 and S3 by."""
     return np.array(_convention_of(convention).signs)
@@ -100,7 +105,9 @@ class EllipsometricAngles:
     psi: Any
     delta: Any
 
-    def ellipsometric_angles(self, convention: str = "ellipsometry") -> tuple[Array, Array]:
+    def ellipsometric_angles(
+        self, convention: ConventionName = "ellipsometry"
+    ) -> tuple[Array, Array]:
         """Return psi and Delta as other software counts them, each in radians, of shape (...).
 
         Parameters

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from inspect import signature
-from typing import TYPE_CHECKING, Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, Literal, Never, NoReturn, Self, TypeAlias, get_args
 
 import numpy as np
 
@@ -53,12 +53,15 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
-    from optipath.light.color import Srgb
+    from optipath.light.color import Beyond, ObserverName, OutOfGamut, Srgb
+    from optipath.light.conventions import ConventionName
     from optipath.values.precision import Array
 
 
-_KINDS = ("ellipse", "poincare", "stokes")
+PictureOfLight: TypeAlias = Literal["ellipse", "poincare", "stokes"]
+_KINDS: tuple[PictureOfLight, ...] = get_args(PictureOfLight)
 
 
 class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
@@ -171,7 +174,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     @classmethod
     def from_(
-        cls, convention: str, stokes: Any, frame: Frame | None = None, **options: Any
+        cls, convention: ConventionName, stokes: Any, frame: Frame | None = None, **options: Any
     ) -> Self:
         """Return light out of Stokes vectors of other software.
 
@@ -423,7 +426,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         frame = self._cached_frame("frame")
         return Light.of(nearest, frame, self._inherited(), wavelength=self.kept_wavelength)
 
-    def to(self, convention: str) -> Array:
+    def to(self, convention: ConventionName) -> Array:
         """Return the Stokes vectors as other software writes them, of shape (..., 4).
 
         In the frame of this light: where the convention has x along p, ours is taken to be along
@@ -518,7 +521,11 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return self.of(*summed, measured=self.is_measured)
 
     def to_xyz(
-        self, white: Any = None, observer: str = "CIE 1931 2 deg", *, outside: str = "dark"
+        self,
+        white: Any = None,
+        observer: ObserverName = "CIE 1931 2 deg",
+        *,
+        outside: Beyond = "dark",
     ) -> Array:
         """Return the tristimulus values X, Y and Z of spectral light, of shape (..., 3).
 
@@ -567,11 +574,11 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     def to_srgb(
         self,
         white: Any = None,
-        observer: str = "CIE 1931 2 deg",
+        observer: ObserverName = "CIE 1931 2 deg",
         *,
-        outside: str = "dark",
+        outside: Beyond = "dark",
         adapt: bool = False,
-        out_of_gamut: str = "refuse",
+        out_of_gamut: OutOfGamut = "refuse",
     ) -> Srgb:
         """Return the colour of spectral light for a display, by IEC 61966-2-1.
 
@@ -612,7 +619,9 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         return srgb_of(self, white, (observer, outside), adapt=adapt, out_of_gamut=out_of_gamut)
 
-    def plot(self, kind: str = "ellipse", ax: Any = None, **options: Any) -> Any:
+    def plot(
+        self, kind: PictureOfLight = "ellipse", ax: Axes | None = None, **options: Any
+    ) -> Axes:
         r"""Draw the light with Matplotlib.
 
         Parameters
@@ -653,7 +662,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         known = [name for name in signature(draw).parameters if name not in ("light", "ax")]
         wrong = [fault for name in options for fault in unknown(f"{kind} option", name, known)]
         ParameterError.raise_for(wrong)
-        return draw(self, ax, **options)
+        return draw(self, ax, **options)  # type: ignore[no-any-return]
 
     @property
     def is_measured(self) -> bool:
@@ -674,7 +683,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """Return what light that is made of this one has of it, by the names of `Light.of`."""
         return {"measured": self.is_measured, "wavelength": self.kept_wavelength}
 
-    def __add__(self, other: object) -> Light:
+    def __add__(self, other: Light) -> Light:
         """Return the incoherent sum in the frame of this one, if no wavelengths differ."""
         if not isinstance(other, Light):
             refuse(f"{shown(other)} is no light to be added")
@@ -688,7 +697,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         noise = None if is_traced(total) else inherited_noise((self, aligned))
         return self._like(total, noise, common_wavelength(self, aligned))
 
-    def __radd__(self, other: object) -> Light:
+    def __radd__(self, other: int) -> Light:
         """Begin a sum: 0 and light is light, so that ``sum(lights)`` has one."""
         if not (isinstance(other, (int, float)) and other == 0):
             refuse(f"{shown(other)} is no light to be added")
@@ -717,15 +726,15 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         noise = None if is_traced(product) else self._inherited(share)
         return self._like(product, noise, self.kept_wavelength)
 
-    def __matmul__(self, other: object) -> NoReturn:
+    def __matmul__(self, other: Never) -> NoReturn:
         """Refuse: what light meets stands before it."""
         raise LightError("what light meets stands before it; write element @ light")
 
-    def __rmatmul__(self, other: object) -> NoReturn:
+    def __rmatmul__(self, other: Never) -> NoReturn:
         """Refuse a matrix without frames, a path, a class."""
         raise LightError(why_refused(other))
 
-    def _refused(self, *_: object) -> NoReturn:
+    def _refused(self, *_: Never) -> NoReturn:
         """Refuse what would be no light."""
         refuse("differences, powers and divisors of light are no light")
 

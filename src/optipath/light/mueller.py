@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import sqrt
-from typing import TYPE_CHECKING, Any, NoReturn, overload
+from typing import TYPE_CHECKING, Any, Never, NoReturn, overload
 
 import numpy as np
 
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from optipath.light.conventions import ConventionName
     from optipath.values.precision import Array
 
 
@@ -81,8 +82,6 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     )
     _written, _entry = "mueller.matrix", "mueller.matrix[..., 0, 0]"
 
-    matrix: Any
-
     def __init__(
         self, matrix: Any, frame_in: Frame | None = None, frame_out: Frame | None = None
     ) -> None:
@@ -93,6 +92,11 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         stored = matrix if is_jax(matrix) else read_only(matrix, widened=False)
         vars(self).update(matrix=stored, frame_in=frames[0], frame_out=frames[1])
         vars(self).update(_noise=0.0, _given=True)
+
+    @cached_property
+    def matrix(self) -> npt.NDArray[Any]:
+        """The Mueller matrices, of shape (..., 4, 4); read-only."""
+        return locked(vars(self)["_matrix"])  # type: ignore[no-any-return]
 
     @cached_property
     def frame_in(self) -> Frame:
@@ -135,7 +139,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         result = cls.__new__(cls)
         own = vars(result)
         own.update(_noise=0.0 if noise is None else noise, _given=given)
-        own["matrix"] = locked(matrix)
+        own["_matrix"] = matrix
         own["frame_in" if type(frame_in) is Frame else "_frame_in"] = frame_in
         own["frame_out" if type(frame_out) is Frame else "_frame_out"] = frame_out
         return result
@@ -143,7 +147,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     @classmethod
     def from_(
         cls,
-        convention: str,
+        convention: ConventionName,
         matrix: Any,
         frame_in: Frame | None = None,
         frame_out: Frame | None = None,
@@ -385,7 +389,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         matrix = reciprocal(self.matrix)
         return self.of(matrix, *frames, noise=lambda _: self.noise, given=self.is_given)
 
-    def to(self, convention: str) -> Array:
+    def to(self, convention: ConventionName) -> Array:
         """Return the matrices as other software writes them, of shape (..., 4, 4).
 
         ``M.to(name) @ light.to(name)`` is ``(M @ light).to(name)``.
@@ -484,7 +488,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         product = product.astype(coarser(matrix, before), copy=False)
         return Mueller.of(product, *frames, noise=noise, given=self.is_given or other.is_given)
 
-    def __rmatmul__(self, other: object) -> NoReturn:
+    def __rmatmul__(self, other: Never) -> NoReturn:
         """Refuse what has no frames."""
         raise LightError(why_refused(other))
 

@@ -25,6 +25,8 @@ from optipath.values.units import dimension_of, parse_quantity, unit_of
 if TYPE_CHECKING:
     from collections.abc import Hashable, Sequence
 
+    from optipath.materials.tables import Extrapolation, Interpolation
+
 
 def tabulated(
     wavelengths: Any,
@@ -32,8 +34,8 @@ def tabulated(
     unit: str = "",
     *,
     label: str = "the table",
-    interpolation: str = "linear",
-    extrapolate: str = "",
+    interpolation: Interpolation = "linear",
+    extrapolate: Extrapolation = "",
     wavelength: Any = None,
 ) -> Any:
     """Return a number that follows from the wavelength by samples.
@@ -76,7 +78,7 @@ def tabulated(
     row = np.asarray(numbers)
     if unit and not texts and row.dtype.kind in "iuf":
         numbers = np.reshape([parse(f"{one} {unit}").real for one in row.flat], row.shape)
-    how = {"interpolation": interpolation, "extrapolate": extrapolate, "unit": unit}
+    how: Any = {"interpolation": interpolation, "extrapolate": extrapolate, "unit": unit}
     return curve_at(Tabulated(label, ("value",), wavelengths, (numbers,), **how), wavelength)[0]
 
 

@@ -180,7 +180,7 @@ class PageEntry(NamedTuple):
     columns: tuple[tuple[float, ...], ...] = ()
     coefficients: tuple[float, ...] = ()
 
-    def curve(self, label: str, parts: Sequence[str], how: Mapping[str, str]) -> Curve:
+    def curve(self, label: str, parts: Sequence[str], how: Mapping[str, Any]) -> Curve:
         """Return the curve of some of its parts."""
         if self.columns:
             columns = [self.columns[1 + self.parts.index(part)] for part in parts]

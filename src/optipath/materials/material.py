@@ -26,6 +26,8 @@ from optipath.values.use import make_sound
 if TYPE_CHECKING:
     from os import PathLike
 
+    from optipath.materials.tables import Extrapolation, Interpolation
+
 
 _SIGN_OF_K = "where the field is exp(-iwt), so that k > 0 absorbs"
 
@@ -124,8 +126,8 @@ class Material:
         n: Any,
         k: Any = 0.0,
         *,
-        interpolation: str = "linear",
-        extrapolate: str = "",
+        interpolation: Interpolation = "linear",
+        extrapolate: Extrapolation = "",
         name: str = "",
         wavelength: Any = None,
     ) -> Self:
@@ -157,7 +159,7 @@ class Material:
         Material 'gold', 500 nm .. 521 nm
         """
         label = label_of("a material", name, "a table of n and k")
-        how = {"interpolation": interpolation, "extrapolate": extrapolate}
+        how: Any = {"interpolation": interpolation, "extrapolate": extrapolate}
         arguments = {"wavelengths": wavelengths, "n": n, "k": k}
         shapes = {name: as_argument(f"{name} of {label}", v).shape for name, v in arguments.items()}
         if not shapes["n"]:
@@ -174,8 +176,8 @@ class Material:
         *,
         k: float | None = None,
         unit: str = "",
-        interpolation: str = "linear",
-        extrapolate: str = "",
+        interpolation: Interpolation = "linear",
+        extrapolate: Extrapolation = "",
         name: str = "",
         wavelength: Any = None,
     ) -> Self:
@@ -376,8 +378,8 @@ class Material:
         name: str,
         *,
         page: str = "",
-        interpolation: str = "linear",
-        extrapolate: str = "",
+        interpolation: Interpolation = "linear",
+        extrapolate: Extrapolation = "",
         n: Any = None,
         k: Any = None,
         wavelength: Any = None,
@@ -421,8 +423,8 @@ class Material:
         cls,
         path: str | PathLike[str],
         *,
-        interpolation: str = "linear",
-        extrapolate: str = "",
+        interpolation: Interpolation = "linear",
+        extrapolate: Extrapolation = "",
         n: Any = None,
         k: Any = None,
         wavelength: Any = None,

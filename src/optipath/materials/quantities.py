@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from types import NoneType
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -160,15 +160,16 @@ Birefringence: TypeAlias = Annotated[Quantity, Domain("birefringence", minimum=-
 _ENDLESS = ", or infinity (a BeamSplitter does not polarise)"
 EXTINCTION = ExtinctionDomain("extinction ratio", minimum=1.000001, besides=_ENDLESS)
 ExtinctionRatio: TypeAlias = Annotated[Quantity, EXTINCTION]
-HANDEDNESSES = ("right", "left")
-Handedness: TypeAlias = Annotated[str, Choice("handedness", words=HANDEDNESSES)]
+Hand: TypeAlias = Literal["right", "left"]
+Handedness: TypeAlias = Annotated[Hand, Choice("handedness", words=get_args(Hand))]
 StokesState: TypeAlias = Annotated[
     Quantity, StokesDomain("Stokes vector", tail=(4,), optional=True)
 ]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
 Whole: TypeAlias = Annotated[int, WholeNumber("whole number")]
-READINGS = ("stokes", "linear", "intensity")
-Reads: TypeAlias = Annotated[str, Choice("reading", words=READINGS)]
+Reading: TypeAlias = Literal["stokes", "linear", "intensity"]
+READINGS: tuple[Reading, ...] = get_args(Reading)
+Reads: TypeAlias = Annotated[Reading, Choice("reading", words=READINGS)]
 YES_OR_NO = YesNo("yes or no")
 YesOrNo: TypeAlias = Annotated[bool, YES_OR_NO]
 

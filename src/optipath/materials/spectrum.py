@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any, Literal, NoReturn, TypeAlias
 
 import numpy as np
 
@@ -64,6 +64,9 @@ _MAKERS = (
 )
 
 
+Outside: TypeAlias = float | Literal["nearest", "linear"] | None
+
+
 class Spectrum(Curve):
     """Power per nanometre by wavelength, or a relative value such as a response.
 
@@ -107,7 +110,7 @@ class Spectrum(Curve):
     kind: SpectrumKind
 
     def __init__(
-        self, wavelengths: Any, values: Any = None, *, outside: Any = None, name: str = ""
+        self, wavelengths: Any, values: Any = None, *, outside: Outside = None, name: str = ""
     ) -> None:
         kind = wavelengths
         if values is not None:
@@ -119,7 +122,9 @@ class Spectrum(Curve):
         vars(self).update(kind=kind, takes_grid=bool(kind.lines))
 
     @classmethod
-    def sampled(cls, wavelengths: Any, values: Any, *, outside: Any = None, name: str = "") -> Self:
+    def sampled(
+        cls, wavelengths: Any, values: Any, *, outside: Outside = None, name: str = ""
+    ) -> Self:
         """Return the spectrum through samples, linear between them.
 
         Parameters
@@ -147,7 +152,7 @@ class Spectrum(Curve):
         column: str = "power",
         *,
         unit: str = "",
-        outside: Any = None,
+        outside: Outside = None,
         name: str = "",
     ) -> Self:
         """Return the spectrum through the samples of a file, as `sampled` does.
@@ -174,7 +179,9 @@ class Spectrum(Curve):
             return cls.sampled(read.wavelengths, values, outside=outside, name=title)
 
     @classmethod
-    def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
+    def histogram(
+        cls, edges: Any, powers: Any, *, outside: float | None = None, name: str = ""
+    ) -> Self:
         """Return the spectrum of bins; its density is the power of a bin by its width in nm.
 
         Parameters
@@ -193,7 +200,7 @@ class Spectrum(Curve):
         return cls(Histogram(edges, powers, outside, label_of("a spectrum", name, "a histogram")))
 
     @classmethod
-    def line(cls, wavelength: Any, power: Any = 1.0, *, outside: Any = None) -> Self:
+    def line(cls, wavelength: Any, power: Any = 1.0, *, outside: Outside = None) -> Self:
         """Return the spectrum of a line, such as that of a laser: all power at one wavelength.
 
         In a run, all of it stands in the bin of the grid of wavelengths that holds the line,
@@ -260,7 +267,7 @@ class Spectrum(Curve):
         return cls(BlackBody(single("temperature of a black body", temperature, _TEMPERATURE)))
 
     @classmethod
-    def illuminant(cls, name: str) -> Self:
+    def illuminant(cls, name: Literal["A", "D65", "E"]) -> Self:
         """Return a standard illuminant of the CIE: relative powers, 100 at 560 nm.
 
         Parameters
@@ -344,7 +351,7 @@ class Spectrum(Curve):
         of_lines = sum(line.power for line in self.kind.lines if start <= line.wavelength < above)
         return of_lines + smooth_power(self.kind, start, end)
 
-    def resample(self, wavelengths: Any, *, outside: Any = None) -> Spectrum:
+    def resample(self, wavelengths: Any, *, outside: Outside = None) -> Spectrum:
         """Return the sampled spectrum of the same values at other wavelengths.
 
         The power is that of straight lines between them; `rebin` keeps the power. Lines have no
@@ -369,7 +376,7 @@ class Spectrum(Curve):
         places = several("wavelengths", wavelengths, PLACES)
         return Spectrum(Sampled(places, values_at(self.kind, places), outside, self.label))
 
-    def rebin(self, edges: Any, *, outside: str = "refuse") -> Spectrum:
+    def rebin(self, edges: Any, *, outside: Literal["refuse", "drop"] = "refuse") -> Spectrum:
         """Return the histogram of the same power in other bins.
 
         Power is kept, in each bin and in all of them to about 1e-14; `resample` keeps values. A
@@ -435,21 +442,20 @@ class Spectrum(Curve):
 
     __radd__ = __add__
 
-    def __mul__(self, other: Any) -> Any:
+    def __mul__(self, other: Any) -> Spectrum:
         if isinstance(other, Spectrum):
             return Spectrum(product_of(self.kind, other.kind))
         return self._by_number(other, "a factor")
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Any:
+    def __truediv__(self, other: Any) -> Spectrum:
         if isinstance(other, Spectrum):
             return Spectrum(quotient_of(self.kind, other.kind))
         return self._by_number(other, "a divisor", above=True)
 
     def __rtruediv__(self, other: Any) -> Spectrum:
-        whole: Spectrum = Spectrum.constant(other) / self
-        return whole
+        return Spectrum.constant(other) / self
 
     def __sub__(self, *_: Any) -> NoReturn:
         raise ValueFault(

@@ -314,7 +314,7 @@ class Sampled(SpectrumKind):
     scaled = "values"
 
     def __post_init__(self) -> None:
-        held = self.outside if isinstance(self.outside, str) and self.outside in HELD else ""
+        held: Any = self.outside if isinstance(self.outside, str) and self.outside in HELD else ""
         outside = held or value_outside(self.label, self.outside)
         samples = self.wavelengths, [self.values]
         table = Tabulated(self.label, ("value",), *samples, extrapolate=held)

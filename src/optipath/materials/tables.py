@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -23,8 +23,10 @@ if TYPE_CHECKING:
     Array = npt.NDArray[np.float64]
 
 
-INTERPOLATIONS = ("linear", "monotone")
-EXTRAPOLATIONS = ("", "nearest", "linear")
+Interpolation: TypeAlias = Literal["linear", "monotone"]
+Extrapolation: TypeAlias = Literal["", "nearest", "linear"]
+INTERPOLATIONS: tuple[Interpolation, ...] = get_args(Interpolation)
+EXTRAPOLATIONS: tuple[Extrapolation, ...] = get_args(Extrapolation)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -42,8 +44,8 @@ class Tabulated(Curve):
     wavelengths: Any
     columns: Sequence[Any]
     _: KW_ONLY
-    interpolation: str = "linear"
-    extrapolate: str = ""
+    interpolation: Interpolation = "linear"
+    extrapolate: Extrapolation = ""
     unit: str = ""
 
     def __post_init__(self) -> None:

@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from optipath.elements.vertex_chain import IfBad
+
     Floats = npt.NDArray[np.float64]
     Letters = npt.NDArray[np.uint32]
     Bools = npt.NDArray[np.bool_]
@@ -221,7 +223,7 @@ def index_parts(name: str, medium: Any) -> tuple[Floats, Floats]:
 
 
 def path_of_chains(
-    points: Any, chains: Histories, intensity: Any, outside: Any, bad: str
+    points: Any, chains: Histories, intensity: Any, outside: Any, bad: IfBad
 ) -> PathGraph:
     """Return the path of light from point to point."""
     path = PathGraph()
@@ -232,7 +234,7 @@ def path_of_chains(
     return path
 
 
-def _vertices(points: Any, chains: Histories, outside: Any, bad: str) -> Iterator[ChainVertex]:
+def _vertices(points: Any, chains: Histories, outside: Any, bad: IfBad) -> Iterator[ChainVertex]:
     front = outside
     if isinstance(chains.events, str):
         for place, (event, medium) in enumerate(
@@ -282,7 +284,7 @@ def known_index(medium: Any) -> tuple[Floats, Floats] | None:
 
 
 def normals_checked(
-    points: Floats, normals: Any, chains: Histories, outside: Any, bad: str
+    points: Floats, normals: Any, chains: Histories, outside: Any, bad: IfBad
 ) -> Histories:
     """Return the chains of points (..., m + 2, 3) whose normals (..., m, 3) are theirs."""
     sides = _sides(chains, outside)

@@ -24,10 +24,10 @@ class GraphFace(Chainable):
 
     description: str
     cases: dict[str, Case]
-    _graph: nx.MultiDiGraph
+    _graph: nx.MultiDiGraph[str]
 
     @property
-    def graph(self) -> nx.MultiDiGraph:
+    def graph(self) -> nx.MultiDiGraph[str]:
         """The networkx graph, to query and not to change.
 
         Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
@@ -36,16 +36,16 @@ class GraphFace(Chainable):
         return self._graph.copy(as_view=True)
 
     @property
-    def nodes(self) -> NodeView:
+    def nodes(self) -> NodeView[str]:
         """The nodes as networkx has them, ``path.nodes["X1"]["element"]``; not to be changed."""
         return self.graph.nodes
 
     @property
-    def edges(self) -> OutMultiEdgeView:
+    def edges(self) -> OutMultiEdgeView[str]:
         """The links as networkx has them, keyed as in `graph`; not to be changed."""
         return self.graph.edges
 
-    def to_networkx(self, *, text: bool = False) -> nx.MultiDiGraph:
+    def to_networkx(self, *, text: bool = False) -> nx.MultiDiGraph[str]:
         """Return a plain networkx graph of the path, which is a copy and anybody's to change.
 
         Parameters

@@ -28,12 +28,18 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
 
+    import xarray as xr
+
+    from optipath.composer.wiring import Loops
     from optipath.elements.ends import Source
     from optipath.light.frame import Frame
     from optipath.light.light import Light
     from optipath.light.mueller import Mueller
+    from optipath.materials.quantities import Reading
     from optipath.plan.light_paths import LightPath
     from optipath.plan.plan import Plan
+    from optipath.sweeps.propagation import Propagation
+    from optipath.sweeps.uncertainty import UncertaintyMethod
     from optipath.values.cases import Case
     from optipath.values.parameters import Parameter
 
@@ -75,7 +81,7 @@ class PathGraph(GraphFace):
         description: str = "",
         cases: Mapping[str, Case] | None = None,
         declared: Sequence[str] = (),
-        loops: str = "refuse",
+        loops: Loops = "refuse",
     ) -> None:
         faults: list[str] = []
         given = {"description": description, "cases": cases, "declared": declared, "loops": loops}
@@ -89,7 +95,7 @@ class PathGraph(GraphFace):
         self._gathered: Values | None = None
 
     @classmethod
-    def from_networkx(cls, graph: nx.DiGraph) -> Self:
+    def from_networkx(cls, graph: nx.DiGraph[Any]) -> Self:
         """Return the path of a networkx graph of elements, which is copied.
 
         Parameters
@@ -140,9 +146,9 @@ class PathGraph(GraphFace):
         return dict(self._graph.graph["choices"])
 
     @property
-    def loops(self) -> str:
+    def loops(self) -> Loops:
         """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
-        return str(self._graph.graph["loops"])
+        return self._graph.graph["loops"]  # type: ignore[no-any-return]
 
     def __getitem__(self, name: str) -> Node:
         name, dot, port = name.partition(".") if isinstance(name, str) else (name, "", "")
@@ -351,12 +357,12 @@ class PathGraph(GraphFace):
         self._graph.graph["choices"] = self.choices | {name: choice}
         self._plans.clear()
 
-    def __rshift__(self, behind: Element | NamedElement | Self) -> Self:
+    def __rshift__(self, behind: Element | NamedElement | PathGraph) -> Self:
         """Return the path in which light goes on from here to what stands behind.
 
         From the only open natural way out to the only natural way in; neither side changes.
         """
-        others: Self = begun(behind)
+        others = begun(behind)
         if twice := sorted(self.cases.keys() & others.cases.keys()):
             raise PathError(f"case '{twice[0]}' stands on both sides of >>; take one of them out")
         path = copy(self)
@@ -418,7 +424,7 @@ class PathGraph(GraphFace):
         """
         return self._having(with_arguments(self._values, values, for_good=False))
 
-    def reading(self, reads: str) -> Self:
+    def reading(self, reads: Reading) -> Self:
         """Return a copy of the path whose detectors and dumps read this, as `Detector` takes it.
 
         Examples
@@ -522,7 +528,7 @@ class PathGraph(GraphFace):
             if path := self._with_curves(parameters):
                 return path.trace(keep="all", **parameters)
             ParameterError.raise_for(unknown("keep", keep, KEEPABLE))
-            return self.plan_by(Composer(keep=keep)).run_all(**parameters)
+            return self.plan_by(Composer(keep="all")).run_all(**parameters)
         if not ends:
             parameters["keep"] = keep
         try:
@@ -632,7 +638,7 @@ class PathGraph(GraphFace):
         progress: bool | Callable[[int, int], None] = False,
         composer: Composer | None = None,
         **axes: Any,
-    ) -> Any:
+    ) -> xr.Dataset:
         """Return the light for every combination of some values, with named axes.
 
         Parameters
@@ -683,14 +689,14 @@ class PathGraph(GraphFace):
         self,
         /,
         *unnamed: Never,
-        method: str = "auto",
+        method: UncertaintyMethod = "auto",
         samples: int | None = None,
         seed: int | None = None,
         correlation: Mapping[tuple[str, str], float] | None = None,
         detector: str | None = None,
         composer: Composer | None = None,
         **values: Any,
-    ) -> Any:
+    ) -> Propagation:
         """Return the light with its uncertainty, which follows from those of values.
 
         To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
@@ -811,7 +817,9 @@ class Node(Chainable):
     name: str
     port: str = ""
 
-    def __rshift__(self, behind: Any) -> Node:
+    def __rshift__(  # type: ignore[override] # a node is of a path that is there
+        self, behind: Node | Element | NamedElement | PathGraph
+    ) -> Node:
         if not isinstance(behind, Node):
             return Node(self.path, self.path._append(self._text, begun(behind)))
         if behind.path is not self.path:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from optipath.elements.vertex_chain import IfBad
     from optipath.paths.path_graph import PathGraph
 
 
@@ -42,7 +43,7 @@ def path_from_vertices(
     outside: Any = 1.0,
     ids: npt.ArrayLike | None = None,
     lengths: npt.ArrayLike | None = None,
-    bad: str = "refuse",
+    bad: IfBad = "refuse",
 ) -> PathGraph:
     """Return the path of light from point to point, reflected or refracted at each but the ends.
 
@@ -147,7 +148,7 @@ def path_from_vertices(
     return path
 
 
-def _composed(points: Any, chains: Histories, intensity: Any, start: Any, bad: str) -> PathGraph:
+def _composed(points: Any, chains: Histories, intensity: Any, start: Any, bad: IfBad) -> PathGraph:
     with checked_later():  # Composing names the vertices, and looks at their array once.
         path = path_of_chains(points, chains, intensity, start, bad)
     path.compose()

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from matplotlib.image import AxesImage
 
     from optipath.plots.axes import Panel
+    from optipath.plots.hemisphere_side import PixelName
+    from optipath.surfaces.hemisphere.beam import Side
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
     from optipath.values.precision import Numbers
 
@@ -41,11 +43,11 @@ _COLUMNS = 56
 
 def hemisphere(
     measured: Hemisphere,
-    quantity: str = "S0",
+    quantity: PixelName = "S0",
     ax: Axes | None = None,
     *,
     source: npt.ArrayLike = UNPOLARISED,
-    side: str = "reflected",
+    side: Side = "reflected",
     wavelength: Any = None,
     largest: float | None = None,
     known_to: float | None = None,
@@ -123,7 +125,7 @@ def mueller_hemisphere(
     measured: Hemisphere,
     axes: Any = None,
     *,
-    side: str = "reflected",
+    side: Side = "reflected",
     wavelength: Any = None,
     known_to: float | None = None,
 ) -> Panel:
@@ -185,7 +187,7 @@ def _over_first(matrices: Numbers) -> Numbers:
 
 
 def differences(
-    measured: Hemisphere, axes: Any = None, *, side: str = "reflected", wavelength: Any = None
+    measured: Hemisphere, axes: Any = None, *, side: Side = "reflected", wavelength: Any = None
 ) -> Panel:
     """Draw light with polarisation, light without, and the difference, side by side.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -205,6 +205,9 @@ _ALL = (
     PixelQuantity("ADM", "mean of |S0 - U| / U", "%", ColourScale.share, masked=_MASK),
     PixelQuantity("MDM", "largest |S0 - U| / U", "%", ColourScale.share, masked=_MASK),
 )
+PixelName: TypeAlias = Literal[
+    "S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "difference", "ADM", "MDM"
+]
 QUANTITIES = {each.variable: each for each in _ALL}
 
 

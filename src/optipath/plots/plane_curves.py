@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    from optipath.plots.hemisphere_side import PixelQuantity
+    from optipath.plots.hemisphere_side import PixelName, PixelQuantity
+    from optipath.surfaces.hemisphere.beam import Side
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
     from optipath.values.precision import Numbers
 
@@ -37,11 +38,11 @@ _CURVE = "curve in the plane of incidence"
 
 def in_plane(
     measured: Hemisphere | Mapping[str, Hemisphere],
-    quantity: str = "S0",
+    quantity: PixelName = "S0",
     ax: Axes | None = None,
     *,
     source: npt.ArrayLike = UNPOLARISED,
-    side: str = "reflected",
+    side: Side = "reflected",
     wavelength: Any = None,
     known_to: float | None = None,
 ) -> Axes:

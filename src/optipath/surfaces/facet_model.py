@@ -29,6 +29,7 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from optipath.kernels.facets import Masking
     from optipath.surfaces.hemisphere.beam import SensedBeam
     from optipath.surfaces.sample import Sample
     from optipath.values.precision import Numbers
@@ -42,7 +43,7 @@ def single_scattering(
     *,
     outside: npt.ArrayLike | Material = 1.0,
     alpha_y: npt.ArrayLike | None = None,
-    masking: str = "smith",
+    masking: Masking = "smith",
     wavelength: Any = None,
 ) -> Mueller:
     """Return the polarised BRDF of a rough surface whose facets reflect light once.

@@ -22,6 +22,7 @@ from optipath.values.precision import real_number, whole_number
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from optipath.surfaces.hemisphere.beam import Side
     from optipath.surfaces.hemisphere.hemisphere import Hemisphere
     from optipath.surfaces.sample import Sample
 
@@ -37,7 +38,7 @@ def decide(
     *,
     photons: int = 1 << 20,
     wavelengths: str | npt.ArrayLike | None = None,
-    side: str = "reflected",
+    side: Side = "reflected",
     brighter_than: float = 0.2,
     sensor: int = 64,
     seed: int = 0,

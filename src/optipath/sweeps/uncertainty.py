@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -40,7 +40,8 @@ _BYTES = 1100
 _BYTES_OF_A_SAMPLE = 2600
 """What a path takes in each sample that runs at once; those of other blocks take nothing."""
 
-METHODS = ("auto", "gradients", "differences", "monte-carlo")
+UncertaintyMethod: TypeAlias = Literal["auto", "gradients", "differences", "monte-carlo"]
+METHODS: tuple[UncertaintyMethod, ...] = get_args(UncertaintyMethod)
 _SAMPLES = 10_000
 _FEWEST, _MOST = 2, 10_000_000
 OPTIONS = frozenset(PathGraph.propagate.__kwdefaults__ or ())

@@ -7,7 +7,7 @@ import warnings
 from contextlib import suppress
 from numbers import Integral, Real
 from operator import index
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +16,12 @@ from optipath.errors import ComposerError
 from optipath.faults import shown
 from optipath.values.jax_values import is_jax, is_traced
 
-DTYPES = ("float64", "float32", "longdouble")
+Precision: TypeAlias = (
+    Literal["float64", "float32", "longdouble", "f8", "f4", "double", "single", "float"]
+    | type[float | np.floating[Any]]
+    | np.dtype[Any]
+)
+DTYPES: tuple[Precision, ...] = ("float64", "float32", "longdouble")
 _BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}
 
 

@@ -68,7 +68,7 @@ def test_an_unknown_name_tells_where_it_was_looked_for(folders):
     sentence = f"preset 'malos' is unknown, also in '{there}', 'nowhere' (no folder); did you "
     assert str(error.value) == f"{sentence}mean 'malus'?"
     preset(here, "mine", 0.5)
-    with pytest.raises(op.errors.PresetError, match="also in 'presets', .* mean 'mine'"):
+    with pytest.raises(op.errors.PresetError, match=r"also in 'presets', .* mean 'mine'"):
         op.load_preset("mien")
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import closing
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 CHUNK = 1 << 22
 """How many photons are summed up by themselves: the least that is kept, or sent to a worker."""
 
+Side: TypeAlias = Literal["reflected", "transmitted"]
 SIDES = {"reflected": layout.UP, "transmitted": layout.DOWN}
 """What the hemispheres are called, and the ends of the photons that get there."""
 
@@ -44,6 +45,7 @@ _MATRIX = tuple(f"M{row}{column}" for row in range(4) for column in range(4))
 OF_BEAM = "cos", "sin", "azimuth", "seed", "most_events"
 """What a file keeps of the photons besides sample, indices and states."""
 
+Polarized: TypeAlias = Literal["both", "polarized", "scalar"]
 NUMBERS = {"both": (*_MATRIX, "scalar"), "polarized": _MATRIX, "scalar": ("scalar",)}
 """What may be measured, and the names of the numbers of a light that are summed up for it."""
 
@@ -54,7 +56,7 @@ class SensedBeam:
 
     beam: PhotonBeam
     sensor: Sensor
-    polarized: str
+    polarized: Polarized
     events: int | None
 
     __eq__ = same_fields

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from optipath.surfaces.hemisphere.beam import PartSums, SensedBeam
+    from optipath.kernels.facets import Masking
+    from optipath.surfaces.hemisphere.beam import PartSums, SensedBeam, Side
     from optipath.surfaces.hemisphere.sensor import Sensor
 
 
@@ -208,7 +209,7 @@ class Hemisphere:
         """
         return self._quantity("AoP", source, period=np.pi)
 
-    def single_scattering(self, masking: str = "smith", points: int = 6) -> xr.DataArray:
+    def single_scattering(self, masking: Masking = "smith", points: int = 6) -> xr.DataArray:
         """Return the Mueller matrices of light that the topmost facets reflect once, by the model.
 
         `optipath.surfaces.single_scattering`, times the cosine, over the solid angle of each
@@ -257,7 +258,7 @@ class Hemisphere:
         return self._array("single_scattering", (result, None), what, "1", ("out", "in"))
 
     def relative_difference(
-        self, side: str = "reflected", *, brighter_than: float = 0.2
+        self, side: Side = "reflected", *, brighter_than: float = 0.2
     ) -> xr.DataArray:
         """Return (S0 - U) / U of each pixel and wavelength, with its sign.
 
@@ -285,7 +286,7 @@ class Hemisphere:
 
     def adm(
         self,
-        side: str = "reflected",
+        side: Side = "reflected",
         *,
         brighter_than: float = 0.2,
         noise: float | None = 0.2,
@@ -342,7 +343,7 @@ error at most 0.2 of the difference, or at most 0.001
 
     def mdm(
         self,
-        side: str = "reflected",
+        side: Side = "reflected",
         *,
         brighter_than: float = 0.2,
         noise: float | None = 0.2,
@@ -365,7 +366,7 @@ error at most 0.2 of the difference, or at most 0.001
         return self._difference("mdm", told, lambda each: np.abs(each).max(axis=-1), side, mask)
 
     def toward(
-        self, direction: Any, side: str = "reflected", wavelength: Any = None
+        self, direction: Any, side: Side = "reflected", wavelength: Any = None
     ) -> MuellerElement:
         """Return the sample as an element, by whose matrix light goes toward a direction.
 
@@ -440,7 +441,7 @@ error at most 0.2 of the difference, or at most 0.001
         self,
         found: Callable[[Numbers], Any],
         direction: Any,
-        side: str = "reflected",
+        side: Side = "reflected",
         wavelength: Any = None,
     ) -> tuple[Numbers, Numbers]:
         """Return what follows from the matrix toward a direction, and its standard error.
@@ -469,7 +470,7 @@ error at most 0.2 of the difference, or at most 0.001
         pixels = self._toward(direction, side, wavelength)
         return pixels.estimate(lambda light: found(self.matrices(light)))
 
-    def frames_toward(self, direction: Any, side: str = "reflected") -> dict[str, Frame]:
+    def frames_toward(self, direction: Any, side: Side = "reflected") -> dict[str, Frame]:
         """Return the frames in space of what `toward` returns, as `PathGraph.add` takes them.
 
         Parameters
@@ -501,7 +502,7 @@ error at most 0.2 of the difference, or at most 0.001
         path: str | PathLike[str],
         *,
         source: npt.ArrayLike | None = None,
-        side: str | None = None,
+        side: Side | None = None,
     ) -> None:
         """Write the hemisphere into a file, whose ending says the form.
 
@@ -602,7 +603,7 @@ error at most 0.2 of the difference, or at most 0.001
     def _difference(self, *arguments: Any) -> xr.DataArray:
         return _arrays().difference_map(self, *arguments)  # type: ignore[no-any-return]
 
-    def _toward(self, direction: Any, side: str, wavelength: Any) -> PartSums:
+    def _toward(self, direction: Any, side: Side, wavelength: Any) -> PartSums:
         """Return the sums over the pixels of each direction."""
         place, z = self.side(side), self.frames_toward(direction, side)["out"].z
         light = wavelength_place(self.wavelengths, wavelength)

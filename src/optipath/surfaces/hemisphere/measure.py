@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from optipath.surfaces.hemisphere.beam import Polarized
+    from optipath.surfaces.hemisphere.sensor import ProjectionName
     from optipath.surfaces.sample import Sample
 
 
@@ -45,9 +47,9 @@ def measure(
     incidence: Any,
     photons: int = CHUNK,
     wavelengths: str | npt.ArrayLike | None = None,
-    sensor: Sensor | int | str = 128,
+    sensor: Sensor | int | ProjectionName = 128,
     seed: int = 0,
-    polarized: str = "both",
+    polarized: Polarized = "both",
     *,
     azimuth: Any = 0.0,
     events: int | None = None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,9 @@ Places = npt.NDArray[np.int64]
 
 _BORDER = 1e-6
 """How far from the border of a pixel, in pixels, directions still are on it."""
+
+
+ProjectionName: TypeAlias = Literal["equidistant", "equal-area"]
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,7 @@ class Sensor:
     """
 
     pixels: int = 128
-    projection: str = "equidistant"
+    projection: ProjectionName = "equidistant"
     parts: int = 16
 
     def __post_init__(self) -> None:
@@ -68,7 +71,7 @@ class Sensor:
         """Return a sensor, given as it is, by its pixels, or by its projection."""
         if isinstance(given, cls):
             return given
-        return cls(projection=given) if isinstance(given, str) else cls(given)
+        return cls(**{"projection" if isinstance(given, str) else "pixels": given})
 
     @cached_property
     def coordinates(self) -> Numbers:
