@@ -14,7 +14,14 @@ from optipath.composer.builder import Item, along_chains, label_of
 from optipath.engines.program import MODELS, Reduction, Result, Tolerance
 from optipath.errors import ComposerError
 from optipath.faults import listed
-from optipath.kernels.carriers.structures import BLOCK, DEPOLARIZING_BLOCK, FULL, ROTATION, SCALE
+from optipath.kernels.carriers.structures import (
+    BLOCK,
+    DEPOLARIZING_BLOCK,
+    FULL,
+    JONES,
+    ROTATION,
+    SCALE,
+)
 from optipath.kernels.catalog import (
     ATTENUATOR,
     CONSTANT_BLOCK,
@@ -353,6 +360,7 @@ _KINDS = {
     "scale": (ATTENUATOR, 4),
     "rotation": (PLAIN_TURN, 16),
     "full": (MATRIX, 34),
+    JONES.name: (MATRIX, 34),
     BLOCK.name: (CONSTANT_BLOCK, 14),
     DEPOLARIZING_BLOCK.name: (CONSTANT_DEPOLARIZING_BLOCK, 14),
 }
@@ -397,7 +405,7 @@ class Constant(NamedTuple):
         if sorts == (BLOCK, BLOCK):
             return _unless_identity(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
         for one, other in ((self, later), (later, self)):
-            if one.structure == SCALE and other.structure != ROTATION:
+            if one.structure == SCALE and other.structure not in (ROTATION, JONES):
                 product = tuple(one.numbers[0] * number for number in other.numbers)
                 return _unless_identity(Constant(other.structure, product))
         return None

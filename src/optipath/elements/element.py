@@ -9,6 +9,7 @@ from optipath.elements.alone import mueller_alone
 from optipath.elements.coupling import register, vanishes
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.own_element import (
+    ROWS,
     class_faults,
     coupling_by_rows,
     domains_of,
@@ -90,14 +91,16 @@ class Element(Chainable):
 
     A subclass is a frozen dataclass without further ado. Its fields are values
     (annotated with a domain: `Angle`, `Fraction`, ...), and it says what it does
-    to light by either of
+    to light by one of
 
     - ``mueller_rows(xp, *values)``, a static method that returns the rows of its Mueller
       matrix, elementwise and out of these values alone, since it is asked once for many
       paths and runs: `xp` has ``sin``, ``where``, ... (`Primitives`; `docs/own-elements.md`).
       Each field gives one value, but an `Index` gives two (n and k), an `Amplitude` two
       (its parts), a Stokes vector four and a matrix sixteen. A field ``azimuth`` gives
-      none: it turns the frame of ``in`` against the one before it, for every element; or
+      none: it turns the frame of ``in`` against the one before it, for every element;
+    - ``jones_rows(xp, *values)``, in its place, for what does not depolarize: the two rows of its
+      Jones matrix in (Ex, Ey), from which its Mueller matrix follows; or
     - ``couplings()``, which names a kernel for each way from an in-port to an out-port.
 
     An element that stands in space by its own values, as a vertex of a chain of points does,
@@ -163,8 +166,8 @@ class Element(Chainable):
         cls.kind = kind
         if kind:
             register(kind, cls)
-        if "mueller_rows" in cls.__dict__:
-            cls._kernel = rows_kernel(kind, cls.__name__, cls.__dict__["mueller_rows"])
+        for which in ROWS.keys() & vars(cls).keys():
+            cls._kernel = rows_kernel(cls, which)
 
     def __post_init__(self) -> None:
         """Keep numbers for texts, read-only arrays, parameters in a unit; refuse all faults."""
@@ -288,7 +291,7 @@ class Element(Chainable):
         if self._kernel is None:
             raise PathError(
                 f"element class {type(self).__name__} does not say what it does to light; "
-                f"give it a static method mueller_rows(xp, ...) or a method couplings()"
+                f"give it a static method mueller_rows(xp, ...), or jones_rows, or couplings()"
             )
         return (coupling_by_rows(self, self._kernel),)
 
@@ -451,7 +454,7 @@ class Element(Chainable):
             if (mirrored := one.get("mirrored")) is not None:
                 return tuple(mirrored)
             # What it does to light is said anew, and its fields are not.
-            if one.keys() & {"mirrored", "mueller_rows", "couplings"}:
+            if one.keys() & {"mirrored", "couplings", *ROWS}:
                 break
         name = type(self).__name__
         raise PathError(

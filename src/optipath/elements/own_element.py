@@ -12,7 +12,7 @@ import numpy as np
 from optipath.elements.coupling import Coupling, numbers_of
 from optipath.errors import PathError, ValueFault
 from optipath.faults import listed, shown
-from optipath.kernels.carriers.structures import FULL
+from optipath.kernels.carriers.structures import FULL, JONES, mueller_of_jones
 from optipath.kernels.kernel import Kernel, KernelFamily, called, guarded
 from optipath.kernels.primitives import NUMPY
 from optipath.light.decompositions import tolerance_of
@@ -250,21 +250,28 @@ def class_faults(element_class: type[Any], base: type[Any], kind: Any) -> Iterat
             is_turn = odd[0] == TURN
             why = "whose links say how it is turned" if is_turn else "which is no field of it"
             yield f"mirrored of element class {name} names '{odd[0]}', {why}; take it out"
-    if "mueller_rows" in vars(element_class):
+    said = [which for which in ROWS if which in vars(element_class)]
+    for which in said:
         values = [field for field in own if field != TURN]
-        yield from _rows_faults(name, vars(element_class)["mueller_rows"], values)
+        yield from _rows_faults(name, which, vars(element_class)[which], values)
+    if len(said) > 1:
+        yield f"element class {name} has {listed(said)}; take out mueller_rows, which follow"
 
 
-def _rows_faults(owner: str, rows: Any, names: list[str]) -> Iterator[str]:
-    """Say what is wrong with `mueller_rows` of a class whose fields are called so."""
-    what = f"mueller_rows of element class {owner}"
+ROWS = {"mueller_rows": 4, "jones_rows": 2}
+"""What a class may say of its matrix, and how many rows that has."""
+
+
+def _rows_faults(owner: str, which: str, rows: Any, names: list[str]) -> Iterator[str]:
+    """Say what is wrong with the rows of a class whose fields are called so."""
+    what = f"{which} of element class {owner}"
     function = rows.__func__ if isinstance(rows, staticmethod) else rows
     code = getattr(function, "__code__", None)
     first, *taken = code.co_varnames[: code.co_argcount] if code and code.co_argcount else ("",)
     if not callable(function) or isinstance(rows, classmethod) or first == "self":
         yield (
             f"{what} must be a static method that returns the rows; put @staticmethod before it, "
-            f"and let it take xp and the number of each field: mueller_rows(xp, ...)"
+            f"and let it take xp and the number of each field: {which}(xp, ...)"
         )
     elif [name for name in names if name in taken] != [name for name in taken if name in names]:
         yield (
@@ -283,15 +290,19 @@ class RowsFactory:
 
     name: str
     rows_of: Callable[..., Any]
+    which: str = "mueller_rows"
 
     def __call__(self, xp: Primitives) -> KernelFunction:
-        """Return the function that gives the sixteen numbers of the matrix."""
-        what = f"mueller_rows of element class {self.name}"
+        """Return the function that gives the numbers of the matrix as its structure has them."""
+        what = f"{self.which} of element class {self.name}"
         return guarded(what, lambda own: partial(self._numbers, what, own), xp)
 
     def _numbers(self, what: str, xp: Primitives, *values: Any) -> tuple[Any, ...]:
         paths = np.broadcast_shapes(*map(_shape, values))
-        entries = _entries(what, self.rows_of(xp, *map(_unchanging, values)), paths)
+        rows, count = self.rows_of(xp, *map(_unchanging, values)), ROWS[self.which]
+        entries = _entries(what, rows, paths, count)
+        if count == 2:
+            entries = tuple(part for entry in entries for part in _parts(entry))
         for entry in entries:
             if entry is None or isinstance(entry, (str, bytes, list, tuple, dict)):
                 raise PathError(f"{what} gives the entry {shown(entry)}; give numbers")
@@ -303,7 +314,14 @@ class RowsFactory:
                     f"{what} gives an entry of shape {shape} for paths of shape {paths}; compute "
                     f"each entry of its arguments alone, elementwise"
                 )
-        return entries
+        return (*mueller_of_jones(entries), *entries) if count == 2 else entries
+
+
+def _parts(entry: Any) -> tuple[Any, ...]:
+    """Return the real and the imaginary part of an entry, which may be given as such."""
+    if isinstance(entry, (tuple, list)) and len(entry) == 2:
+        return tuple(entry)
+    return (entry.real, entry.imag) if _is_complex(entry) else (entry, 0.0)
 
 
 def _unchanging(value: Any) -> Any:
@@ -321,21 +339,22 @@ def _shape(value: Any) -> tuple[int, ...]:
     return getattr(value, "shape", ())
 
 
-def _entries(what: str, rows: Any, paths: tuple[int, ...]) -> tuple[Any, ...]:
-    """Return the sixteen entries of four rows, which are for paths of a shape."""
+def _entries(what: str, rows: Any, paths: tuple[int, ...], count: int) -> tuple[Any, ...]:
+    """Return the entries of so many rows, which are for paths of a shape."""
     results = []
     if isinstance(rows, np.ndarray):
-        _check_array(what, rows, paths, (4, 4))
+        _check_array(what, rows, paths, (count, count))
         rows = np.asarray(rows)
     try:
         # Each row before the next, which may be a generator that knows one at a time.
         for row in rows:
-            _check_array(what, row, paths, (4,))
+            _check_array(what, row, paths, (count,))
             results.append(tuple(row))
     except TypeError:
         results = []
-    if [len(row) for row in results] != [4] * 4:
-        raise PathError(f"{what} must return four rows of four entries, not {shown(rows)}")
+    if [len(row) for row in results] != [count] * count:
+        rule = f"{what} must return {_OF[count].format('rows of')}"
+        raise PathError(f"{rule}, not {shown(rows)}")
     return tuple(entry for row in results for entry in row)
 
 
@@ -346,8 +365,11 @@ def _check_array(what: str, argument: Any, paths: tuple[int, ...], shape: tuple[
     if own and (paths or own != shape):
         raise PathError(
             f"{what} gives an array of shape {own}{' for many paths' if paths else ''}; return "
-            f"four rows, tuples of four entries each, which may be arrays over paths"
+            f"{_OF[shape[0]].format('rows, tuples of')} each, which may be arrays over paths"
         )
+
+
+_OF = {2: "two {} two entries", 4: "four {} four entries"}
 
 
 def _is_complex(entry: Any) -> bool:
@@ -372,10 +394,12 @@ def _real(what: str, entries: tuple[Any, ...], values: tuple[Any, ...]) -> tuple
     return tuple(entry.real if _is_complex(entry) else entry for entry in entries)
 
 
-def rows_kernel(name: str, class_name: str, rows_of: Any) -> Kernel:
-    """Return the kernel of an element that gives the rows of its Mueller matrix."""
+def rows_kernel(element_class: type[Any], which: str) -> Kernel:
+    """Return the kernel of an element that gives the rows of its Mueller or Jones matrix."""
+    name, rows_of = element_class.__name__, vars(element_class)[which]
     function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
-    return Kernel(name or class_name, FULL, RowsFactory(class_name, function))
+    structure = JONES if which == "jones_rows" else FULL
+    return Kernel(element_class.kind or name, structure, RowsFactory(name, function, which))
 
 
 def coupling_by_rows(element: Any, kernel: Kernel) -> Coupling:

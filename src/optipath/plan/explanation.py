@@ -14,7 +14,7 @@ from optipath.engines.choice import LARGE
 from optipath.errors import ParameterError
 from optipath.faults import listed
 from optipath.kernels.carriers.carrier import StokesCarrier
-from optipath.kernels.carriers.structures import FULL, ROTATION
+from optipath.kernels.carriers.structures import FULL, JONES, ROTATION
 from optipath.plan.runnable import LONGEST
 from optipath.values.arrays import joint_shape
 from optipath.values.operands import MANY
@@ -126,7 +126,7 @@ def _loop(program: Program, loop: Loop) -> ExplainedLoop:
     return ExplainedLoop(
         tuple(program.steps[junction].label for junction in loop.junctions),
         sum(map(program.count, loop.junctions)),
-        loop.layered and not any(kernel.structure in (ROTATION, FULL) for kernel in kernels),
+        loop.layered and not any(kernel.structure in (ROTATION, FULL, JONES) for kernel in kernels),
     )
 
 

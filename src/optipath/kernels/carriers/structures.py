@@ -298,6 +298,56 @@ FULL = Structure("full", _UNIT_MATRIX, _full, _full_rows, _full_powers, unpolari
 """Sixteen numbers, row by row."""
 
 
+def mueller_of_jones(j: Numbers) -> tuple[Any, ...]:
+    """Return the sixteen entries of the Mueller matrix of (Re J00, Im J00, Re J01, ..., Im J11).
+
+    As `PAULI` has it, M_ij = 1/2 tr(s_i J s_j J*).
+    """
+    a, b, c, d = (j[0:2], j[2:4], j[4:6], j[6:8])
+    xx, xy, yx, yy = (products(*zip(e, e, strict=True)) for e in (a, b, c, d))
+    ab, cd, ac, bd, ad, bc = map(_conjugate, (a, c, a, b, a, b), (b, d, c, d, d, c))
+    x, y, of_x, of_y = xx + xy, yx + yy, xx - xy, yx - yy
+    return (
+        *(0.5 * (x + y), 0.5 * (of_x + of_y), ab[0] + cd[0], -ab[1] - cd[1]),
+        *(0.5 * (x - y), 0.5 * (of_x - of_y), ab[0] - cd[0], cd[1] - ab[1]),
+        *(ac[0] + bd[0], ac[0] - bd[0], ad[0] + bc[0], bc[1] - ad[1]),
+        *(ac[1] + bd[1], ac[1] - bd[1], ad[1] + bc[1], ad[0] - bc[0]),
+    )
+
+
+def _conjugate(a: Numbers, b: Numbers) -> tuple[Any, Any]:
+    """Return conj(a) b."""
+    return products((a[0], b[0]), (a[1], b[1])), products((a[0], b[1]), (-a[1], b[0]))
+
+
+def _matrix_jones(_: Primitives, numbers: Numbers, columns: Columns) -> Columns:
+    j = numbers[16:]
+
+    def passed(column: Column) -> Column:
+        one, other = column, (-column[1], column[0], -column[3], column[2])
+        rows = [(j[row : row + 4 : 2], j[row + 1 : row + 4 : 2]) for row in (0, 4)]
+        results = [
+            products(*zip((*real, *imaginary), (*with_re, *with_im), strict=True))
+            for real, imaginary in rows
+            for with_re, with_im in ((one[::2], other[::2]), (one[1::2], other[1::2]))
+        ]
+        return results[0], results[1], results[2], results[3]
+
+    return passed(columns[0]), passed(columns[1])
+
+
+JONES = Structure(
+    "Jones matrix",
+    (*_UNIT_MATRIX, *(float(i in (0, 6)) for i in range(8))),
+    _full,
+    _full_rows,
+    _full_powers,
+    _matrix_jones,
+    lambda numbers: (*_grey_full(numbers), *numbers[16:]),
+)
+"""A full one of what does not depolarize, and its Jones matrix, `mueller_of_jones`."""
+
+
 PAULI = np.array(
     [[[1, 0], [0, 1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]], [[0, -1j], [1j, 0]]], np.complex128
 )
