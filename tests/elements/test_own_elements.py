@@ -141,7 +141,7 @@ def test_rows_may_be_a_matrix_of_numpy_for_one_path_which_is_given_plain_numbers
 @rows(
     "element_class, expected",
     [
-        (Array, "Array raises ValueError: .*return four rows, tuples of four entries each"),
+        (Array, "Array raises ValueError: .*return the rows as tuples"),
         (Branch, r"Branch raises ValueError: .*choose by xp.where\(condition, yes, no\) in place"),
         (Maths, r"Maths raises TypeError: .*call xp.cos, xp.sqrt, ... in place of the functions"),
         (Imaginary, r"Imaginary gives the complex entry \[1\]\[1\]"),

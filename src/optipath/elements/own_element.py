@@ -22,7 +22,7 @@ from optipath.materials.quantities import REAL, YES_OR_NO
 from optipath.raising import collecting
 from optipath.values.agreement import is_single
 from optipath.values.arrays import broadcast_fault, same
-from optipath.values.domains import Domain, StokesDomain
+from optipath.values.domains import Domain, StokesDomain, Within
 from optipath.values.jax_values import is_traced
 from optipath.values.operands import Operand, Operation, ResultOf, operand_of
 
@@ -421,16 +421,39 @@ def domains_of(element_class: type[Any]) -> dict[str, Domain]:
         ) from None
     # The base of all elements is no dataclass, and has no fields.
     own = fields(element_class) if is_dataclass(element_class) else ()
-    plain = {f.name: YES_OR_NO if hints[f.name] is bool else REAL for f in own}
-    return {name: next(_annotated(hints[name]), domain) for name, domain in plain.items()}
+    results: dict[str, Domain] = {}
+    faults: list[str] = []
+    for name in [field.name for field in own]:
+        with collecting(faults, about=f"field '{name}' of element class {element_class.__name__}"):
+            results[name] = _domain(hints[name])
+    PathError.raise_for(faults)
+    return results
 
 
-def _annotated(hint: Any) -> Iterator[Domain]:
+def _domain(hint: Any) -> Domain:
+    """Return the domain that an annotation says, narrowed by ranges."""
+    parts = list(_annotations(hint))
+    usual = YES_OR_NO if getattr(hint, "__origin__", hint) is bool else REAL
+    domain = next((part for part in parts if isinstance(part, Domain)), usual)
+    for part in parts:
+        if isinstance(part, Within):
+            domain = part.narrowed(domain)
+        elif _is_meant_as_range(part):
+            what = "Within" if part is Within else shown(part)
+            raise ValueFault(f"{what} says no range; write op.fields.Within(least, most)")
+    return domain
+
+
+def _annotations(hint: Any) -> Iterator[Any]:
+    yield hint
     for part in get_args(hint):
-        if isinstance(part, Domain):
-            yield part
-        else:
-            yield from _annotated(part)
+        yield from _annotations(part)
+
+
+def _is_meant_as_range(part: Any) -> bool:
+    """Tell whether something beside a type is meant as a range, as those of others may be."""
+    others = any(getattr(part, end, None) is not None for end in ("ge", "gt", "le", "lt"))
+    return part is Within or isinstance(part, (range, slice, tuple)) or others
 
 
 def same_value(first: Any, second: Any, domain: Domain) -> bool:

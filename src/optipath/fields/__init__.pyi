@@ -14,3 +14,4 @@ from optipath.materials.quantities import NonNegative as NonNegative
 from optipath.materials.quantities import Real as Real
 from optipath.materials.quantities import StokesState as StokesState
 from optipath.materials.quantities import YesOrNo as YesOrNo
+from optipath.values.domains import Within as Within

@@ -140,7 +140,7 @@ _OTHERWISE = {
     "tan": "xp.sin(x) / xp.cos(x)",
     "power": "x**y",
     "pi": "math.pi",
-    "array": "the rows as tuples of four entries each",
+    "array": "the rows as tuples of entries",
 }
 """How what other libraries have is written by what ``xp`` has."""
 
@@ -153,7 +153,7 @@ _CURES = (
     ("arrays can be converted", _CALL),
     ("must be real number, not", _CALL),
     ("tracer", _CALL),
-    ("inhomogeneous", "return four rows, tuples of four entries each, and no array of them"),
+    ("inhomogeneous", "return the rows as tuples of entries, and no array of them"),
     ("read-only", "make a new number, a = a + 1, in place of a += 1: arguments are the caller's"),
     ("division by zero", "let xp.where choose another divisor there"),
 )

@@ -15,8 +15,14 @@ from optipath.values.angles import TURN, CosSin, range_cure, refused
 from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import Parameter
-from optipath.values.precision import ENDLESS, doubles, held, rounding_of
-from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
+from optipath.values.precision import ENDLESS, doubles, held, real_number, rounding_of
+from optipath.values.units import (
+    USUAL_UNITS,
+    dimension_of,
+    format_quantity,
+    parse_quantity,
+    unit_of,
+)
 
 LEAST = float(np.finfo(float).tiny)
 """The least normal number: those above 0 that are less have too few digits."""
@@ -141,6 +147,8 @@ class Domain:
         """Say in words which values are allowed."""
         low, high = self._text(self.minimum), self._text(self.maximum)
         within = f" within {low} .. {high}"
+        if np.isinf(self.minimum) and np.isfinite(self.maximum):
+            within = f" of {high} or less"
         if np.isinf(self.maximum):
             within = f" of {low} or more" if np.isfinite(self.minimum) else ""
             within = " above 0" if 0.0 < self.minimum <= LEAST else within
@@ -165,6 +173,74 @@ class Domain:
         if self.complex_parts:
             return str(number), ""
         return refused(number, self.unit, (self.minimum, self.maximum))
+
+
+@dataclass(frozen=True)
+class Within:
+    """The range of a field of an element of one's own: ``Annotated[float, Within(0, 2)]``.
+
+    Both ends are included. With `Real`, `Angle` and the like, ``Annotated[Angle, Within(0)]``, it
+    narrows what these are; a plain number with a unit at an end is a quantity of that unit.
+
+    Parameters
+    ----------
+    minimum, maximum : float or str, optional
+        The ends: numbers in base units (radians, metres), or texts such as ``"30 deg"``; by
+        default there is none.
+
+    Raises
+    ------
+    ValueFault
+        If an end is no number, or the first is above the second.
+
+    Examples
+    --------
+    >>> from typing import Annotated
+    >>> import optipath as op
+    >>> class Gain(op.Element):
+    ...     factor: Annotated[op.fields.Real, op.fields.Within(0, 1)]
+    ...
+    ...     @staticmethod
+    ...     def jones_rows(xp, factor):
+    ...         return (factor, 0), (0, factor)
+    >>> Gain(2.0)
+    Traceback (most recent call last):
+    optipath.errors.ValueFault: Gain factor is 2; give a real number within 0 .. 1
+    """
+
+    minimum: float | str | None = None
+    maximum: float | str | None = None
+
+    def __post_init__(self) -> None:
+        """Check both ends."""
+        self.narrowed(Domain("number"))
+
+    def narrowed(self, domain: Domain) -> Domain:
+        """Return a domain of real numbers with this range."""
+        ends = self.minimum, self.maximum
+        unit = next((u for end in ends if isinstance(end, str) and (u := unit_of(end))), "")
+        if unit and domain == Domain("number"):
+            kind = dimension_of(unit)
+            domain = replace(domain, name=kind, dimension=kind, own_unit=unit)
+        own, several = (domain.minimum, domain.maximum), (*domain.complex_parts, *domain.tail)
+        if several or isinstance(domain, Choice):
+            raise ValueFault(f"Within is for real numbers, not for {domain.described()}")
+        given = list(own)
+        for place, end in enumerate(ends):
+            if end is not None:
+                number = real_number(domain.parse(end) if isinstance(end, str) else end)
+                if number is None:
+                    raise ValueFault(f"an end of Within is {shown(end)}; give a number, or None")
+                if domain.dimension == "angle" and end == number and abs(number) > TURN:
+                    raise ValueFault(
+                        f"an end of Within is {number:g} rad; write degrees as '{number:g} deg'"
+                    )
+                given[place] = number
+        low, high = max(given[0], own[0]), min(given[1], own[1])
+        if low > high:
+            texts = " .. ".join(map(str, ends))
+            raise ValueFault(f"Within {texts} leaves no number that is {domain.described()}")
+        return replace(domain, minimum=low, maximum=high)
 
 
 def one_number(owner: str, value: Any, domain: Domain) -> float:

@@ -336,6 +336,10 @@ def _matrix_jones(_: Primitives, numbers: Numbers, columns: Columns) -> Columns:
     return passed(columns[0]), passed(columns[1])
 
 
+def _grey_jones(numbers: Numbers) -> Numbers:
+    return *_grey_full(numbers), *numbers[16:]
+
+
 JONES = Structure(
     "Jones matrix",
     (*_UNIT_MATRIX, *(float(i in (0, 6)) for i in range(8))),
@@ -343,7 +347,7 @@ JONES = Structure(
     _full_rows,
     _full_powers,
     _matrix_jones,
-    lambda numbers: (*_grey_full(numbers), *numbers[16:]),
+    _grey_jones,
 )
 """A full one of what does not depolarize, and its Jones matrix, `mueller_of_jones`."""
 
