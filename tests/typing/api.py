@@ -1,7 +1,7 @@
 """The public interface as a user's code sees it; checked by mypy, and run."""
 
 import functools
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -18,6 +18,17 @@ class HalfWavePlate(op.Element, kind="typed-half-wave-plate"):
         return (1, 0, 0, 0), (0, c, s, 0), (0, s, -c, 0), (0, 0, 0, -1)
 
 
+class Grid(op.Element, kind="typed-grid"):
+    leakage: Annotated[op.fields.Real, op.fields.Within(0, "0.1")] = 0.01
+
+    @staticmethod
+    def jones_rows(xp: Any, leakage: Any) -> Any:
+        return (1, 0), (0, (xp.sqrt(leakage), 0.0))
+
+
+mirrors = op.path_from_vertices([[0, 0, 1], [0, 0, 0], [0, 1, 0]], materials=[0.6 + 2.1j])
+along = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 1))
+mirrors.insert("grid", Grid(op.Parameter("leakage")), "vertex1", frames={"in": along})
 path = op.PathGraph("typed")
 lamp = path.add("lamp", op.Source(intensity=100.0, stokes=[1, 0, 0, 0]))
 glass = path.add("glass", op.Interface(index=1.5 + 0.1j, incidence=op.Parameter("theta")))
