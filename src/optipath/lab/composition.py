@@ -77,7 +77,7 @@ def _interface(incidence: Any) -> Interface:
     return Interface(_METAL, incidence, azimuth=_TURNED)
 
 
-_METAL, _TURNED = 0.2 + 5.0j, 0.1
+_METAL, _TURNED = 0.05 + 10.0j, -0.05
 _KINDS: tuple[tuple[Parameter, Callable[[Any], Any], Callable[[Any], Array]], ...] = (
     (Parameter("incidence", 0.55, "rad", 0.5, 0.6), _interface, _reflection),
     (Parameter("axis", 0.05, "rad", 0.0, 0.1), Polarizer, _polarizer),
@@ -99,11 +99,11 @@ def mixed_path(count: int) -> tuple[PathGraph, nx.DiGraph]:
     node = path.add("lamp", Source())
     for place in range(count - 2):
         parameter, element, formula = _KINDS[place % 3]
-        own = parameter.default * (1.0 - 0.5 * place / count)
-        node = node >> path.add(name := f"e{place}", element(parameter if place % 2 else own))
-        graph.add_node(name, formula=formula, angle=parameter.name if place % 2 else own)
+        own, is_open = parameter.default * (1.0 - 0.5 * place / count), place % 2 == 0
+        node = node >> path.add(f"e{place}", element(parameter if is_open else own))
+        graph.add_node(place, formula=formula, angle=parameter.name if is_open else own)
         if place:
-            graph.add_edge(f"e{place - 1}", name)
+            graph.add_edge(place - 1, place)
     node >> path.add("eye", Detector())
     return path, graph
 
@@ -160,7 +160,7 @@ def measured(
     names = engines or filter(is_installed, ("numpy", "numba"))
     composers = {name: Composer(engine=name, threads=threads) for name in names}
     largest = largest or (1_000_000 if long else 10_000)
-    sizes = [*(10**power for power in range(len(str(largest - 1)) * long)), largest]
+    sizes = [*(10**power for power in range(1, len(str(largest - 1)) * long)), largest]
     counts = dict.fromkeys([elements, 10, *((100, 10_000) if long else ())])
     pairs: dict[str, tuple[PathGraph, nx.DiGraph | None]] = {
         **{f"{count:,} mixed elements": mixed_path(count) for count in counts},
@@ -174,7 +174,7 @@ def measured(
     return [work.rates(timings) for work in works]
 
 
-_LONG = 200
+_LONG = 50
 """From how many elements on these are counted, and light is that of one value."""
 
 
