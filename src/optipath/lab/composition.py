@@ -21,7 +21,7 @@ from optipath.paths.path_graph import PathGraph
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from optipath.lab.bench import Timing
     from optipath.plan.plan import Plan
@@ -152,12 +152,12 @@ def measured(
     elements: int = 1000,
     largest: int | None = None,
     long: bool = False,
-    engines: Sequence[str] = (),
+    engines: Sequence[Any] = (),
     threads: int = 1,
     progress: Callable[[str], object] = lambda _: None,
 ) -> list[Rates]:
     """Return how fast mixed paths and others are composed and traced, all of it in turns."""
-    names = engines or filter(is_installed, ("numpy", "numba"))
+    names: Iterable[Any] = engines or filter(is_installed, ("numpy", "numba"))
     composers = {name: Composer(engine=name, threads=threads) for name in names}
     largest = largest or (1_000_000 if long else 10_000)
     sizes = [*(10**power for power in range(1, len(str(largest - 1)) * long)), largest]
