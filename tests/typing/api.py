@@ -91,6 +91,8 @@ of_networkx: op.PathGraph = op.PathGraph.from_networkx(chained.to_networkx())
 texts: Any = chained.to_networkx(text=True)
 kinds: list[str] = [data["element"].kind for data in chained.nodes.values()]
 links: list[Any] = [*chained.edges(keys=True, data=True)]
+at_plate: dict[str, op.Frame] = chained["analyser"].frames
+turn_there: Any = chained.frames().turns["source.out -> analyser.in"]
 by_graph: op.Plan = op.Composer().compose(chained.to_networkx())
 light: op.Light = path.trace(theta=0.1, angle=[[0.1], [0.2]])
 lights: dict[str, op.Light] = path.trace_all(theta=0.1, angle=0.2)

@@ -210,7 +210,7 @@ def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
     """
     if not wiring.self_placed:
         return None
-    return _followed(wiring, (name, port), _before) or _followed(wiring, (name, port), _behind)
+    return _followed(wiring, (name, port), before) or _followed(wiring, (name, port), _behind)
 
 
 def _followed(
@@ -233,7 +233,7 @@ def _followed(
     return None
 
 
-def _before(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
+def before(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
     """Return the port that all light at a port comes from, and the turns since then."""
     name, way = port
     if way not in wiring.elements[name].inputs:

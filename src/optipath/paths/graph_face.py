@@ -1,13 +1,18 @@
-"""GraphFace: a path as networkx users see it: nodes, links, and a plain graph of them."""
+"""GraphFace: what a path is made of: nodes, links, parameters and frames; its plain graph."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Never
 
+from optipath.composer.path_values import Values
 from optipath.composer.plain_graph import plain
+from optipath.composer.port_frames import PathFrames
+from optipath.composer.wiring import Wiring
 from optipath.elements.element import Chainable
 from optipath.paths import editing
+from optipath.paths.binding import with_arguments
 from optipath.paths.drawing import with_texts
+from optipath.raising import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -15,16 +20,20 @@ if TYPE_CHECKING:
     import networkx as nx
     from networkx.classes.reportviews import NodeView, OutMultiEdgeView
 
+    from optipath.composer.wiring import Loops
     from optipath.elements.element import Element
+    from optipath.paths.binding import PlaceChoice
     from optipath.values.cases import Case
+    from optipath.values.parameters import Parameter
 
 
 class GraphFace(Chainable):
-    """What can be asked of the graph of a path."""
+    """What can be asked of a path that is not composed."""
 
     description: str
     cases: dict[str, Case]
     _graph: nx.MultiDiGraph[str]
+    _gathered: Values | None
 
     @property
     def graph(self) -> nx.MultiDiGraph[str]:
@@ -72,6 +81,56 @@ class GraphFace(Chainable):
         graph = plain(self._graph, description=self.description, cases=dict(self.cases))
         return with_texts(graph) if text else graph
 
+    def frames(self, /, *unnamed: Never, **parameters: Any) -> PathFrames:
+        """Return the frame of each port, and the turn on each link.
+
+        Parameters
+        ----------
+        *unnamed, **parameters : float or array_like
+            By name, the values of open parameters that frames depend on; their defaults otherwise.
+
+        Returns
+        -------
+        PathFrames
+            By node and port, with the turns of links as ``turns`` and the names of relative ports
+            as ``relative``. Ports with frames or points of their own, and ports next to these,
+            have their frames in space. Others are relative: the unit frame where light begins,
+            where it leaves an element on another way, and where it meets other light; from there
+            on, turned by each link. The z of the unit frame is the direction of the light.
+
+        Raises
+        ------
+        ParameterError
+            With every value that is missing, unknown or unsuitable.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> path = op.load_preset("npgr026", case=7)
+        >>> frames = path.frames(rho="90 deg")
+        >>> frames["X1"]["in"].x.round(12), frames["X1"]["reflected"] == op.Frame()
+        (array([ 0., -1.,  0.]), True)
+        >>> print(frames.turns["X2.reflected -> X1.in"].round(6), path["X1"].frames["in"].x)
+        -1.570796 [ 0.82903757 -0.5591929   0.        ]
+        """
+        check_named("frames", unnamed, self.parameters)
+        return PathFrames.of(wiring_at_defaults(self._values, parameters))
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """The parameters of all elements and links, by name, bound ones included."""
+        return dict(self._values.parameters)
+
+    @property
+    def choices(self) -> dict[str, PlaceChoice]:
+        """What is chosen by word before the path is composed, as `bind` takes it, by name."""
+        return dict(self._graph.graph["choices"])
+
+    @property
+    def loops(self) -> Loops:
+        """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
+        return self._graph.graph["loops"]  # type: ignore[no-any-return]
+
     def element(self, name: str) -> Element:
         """Return the element of a node.
 
@@ -88,3 +147,17 @@ class GraphFace(Chainable):
 
     def __len__(self) -> int:
         return len(self._graph)
+
+    @property
+    def _values(self) -> Values:
+        """The values of the path, gathered once until it changes."""
+        if self._gathered is None:
+            self._gathered = Values(self._graph)
+        return self._gathered
+
+
+def wiring_at_defaults(known: Values, values: dict[str, Any]) -> Wiring:
+    """Return the wiring of a path whose parameters have values, or else their defaults."""
+    usual = {name: p.default for name, p in known.parameters.items() if not p.bound}
+    values = {name: value for name, value in usual.items() if value is not None} | values
+    return Wiring(with_arguments(known, values, for_good=True).graph)

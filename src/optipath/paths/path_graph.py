@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
 import networkx as nx
 
 from optipath.composer.composer import Composer, checked
-from optipath.composer.path_values import Values
 from optipath.composer.plain_graph import completed, whole
+from optipath.composer.port_frames import PortFrames
 from optipath.composer.wiring import KEEPABLE
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
@@ -19,7 +19,7 @@ from optipath.faults import Fault, shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
-from optipath.paths.graph_face import GraphFace
+from optipath.paths.graph_face import GraphFace, wiring_at_defaults
 from optipath.paths.reversed import reversed_graph
 from optipath.raising import check_named, needing
 from optipath.values.arrays import same
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from optipath.composer.path_values import Values
     from optipath.composer.wiring import Loops
     from optipath.elements.ends import Source
     from optipath.light.frame import Frame
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     from optipath.sweeps.propagation import Propagation
     from optipath.sweeps.uncertainty import UncertaintyMethod
     from optipath.values.cases import Case
-    from optipath.values.parameters import Parameter
 
 
 class PathGraph(GraphFace):
@@ -92,7 +92,7 @@ class PathGraph(GraphFace):
         self._graph = nx.MultiDiGraph(**about)
         # What the graph has been composed to, until it changes.
         self._plans: dict[str | Composer, Plan] = {}
-        self._gathered: Values | None = None
+        self._gathered = None
 
     @classmethod
     def from_networkx(cls, graph: nx.DiGraph[Any]) -> Self:
@@ -134,21 +134,6 @@ class PathGraph(GraphFace):
             ]
             PathError.raise_for(wrong)
         return path
-
-    @property
-    def parameters(self) -> dict[str, Parameter]:
-        """The parameters of all elements and links, by name, bound ones included."""
-        return dict(self._values.parameters)
-
-    @property
-    def choices(self) -> dict[str, PlaceChoice]:
-        """What is chosen by word before the path is composed, as `bind` takes it, by name."""
-        return dict(self._graph.graph["choices"])
-
-    @property
-    def loops(self) -> Loops:
-        """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
-        return self._graph.graph["loops"]  # type: ignore[no-any-return]
 
     def __getitem__(self, name: str) -> Node:
         name, dot, port = name.partition(".") if isinstance(name, str) else (name, "", "")
@@ -779,13 +764,6 @@ class PathGraph(GraphFace):
         self._changed()
         return last
 
-    @property
-    def _values(self) -> Values:
-        """The values of the path, gathered once until it changes."""
-        if self._gathered is None:
-            self._gathered = Values(self._graph)
-        return self._gathered
-
     def _changed(self) -> None:
         self._plans.clear()
         self._gathered = None
@@ -826,6 +804,16 @@ class Node(Chainable):
             raise PathError(f"'{self.name}' and '{behind.name}' stand in different paths; use one")
         self.path.connect(self._text, behind._text)
         return Node(behind.path, behind.name)
+
+    @property
+    def frames(self) -> dict[str, Frame]:
+        """The frame of each port, as `PathGraph.frames` has it, with parameters at their defaults.
+
+        >>> import optipath as op
+        >>> op.load_preset("npgr026-3d")["X2"].frames["in"].x.round(12) + 0.0
+        array([1., 0., 0.])
+        """
+        return PortFrames(wiring_at_defaults(values_of(self.path), {})).of(self.name)
 
     @property
     def _text(self) -> str:

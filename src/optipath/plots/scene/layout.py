@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.composer.media import with_followed
 from optipath.composer.placement import azimuth_of
+from optipath.composer.port_frames import PortFrames
 from optipath.composer.wiring import Wiring
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.vertex_chain import VerticesByAngles
@@ -336,9 +337,12 @@ def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
     wiring, value = placing.wiring, azimuth_of(placing.wiring, link)
     if link[0] in wiring.self_placed and link[1] in wiring.self_placed:
         _, value = angles_in_chain(wiring.elements[link[1]])
-    if not isinstance(value, Parameter):
+    if isinstance(value, Parameter):
+        message = shown_value(value.alone() if value.is_signed else value)
+    elif abs(value := float(PortFrames(wiring).turn(link))) > _SEEN:
+        message = ShownValue("turn", f"turn = {quantity_text(value, 'deg')}")
+    else:
         return
-    message = shown_value(value.alone() if value.is_signed else value)
     drawn = placing.links[link]
     is_surface = placing.postures[link[1]].role == "surface"
     first, second = (drawn.axes[:, 1], -drawn.axes[:, 0]) if is_surface else drawn.axes.T[:2]
