@@ -30,18 +30,6 @@ def angles(count, dtype="float64"):
     return {name: value.astype(dtype) for name, value in found.items()}
 
 
-def chain(length, power=1.0):
-    """Return a path of many interfaces, each with values of its own."""
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source(power))
-    for number in range(length):
-        share = number / length
-        interface = op.Interface(1.5 + 0.1 * share, 0.3 + 0.1 * share, azimuth=0.1)
-        node = node >> path.add(f"e{number}", interface)
-    node >> path.add("eye", op.Detector())
-    return path
-
-
 def traced(refracted, indices, seed):
     """Return vertices of chains of rays, (count, m + 2, 3); both arguments are (count, m)."""
     rng = np.random.default_rng(seed)

@@ -1,7 +1,6 @@
-"""Charts and benches: what is measured, what is drawn, and each without the other."""
+"""Charts: what is measured, what is drawn, and each without the other."""
 
 import json
-from collections import Counter
 from itertools import pairwise
 
 import numpy as np
@@ -10,12 +9,9 @@ import pytest
 import optipath as op
 from charts import texts_over_marks
 from optipath.cli.chart_command import NEAR
-from optipath.engines.numpy_engine import NumpyEngine
-from optipath.kernels.catalog import METHODS, REFLECTION
-from optipath.lab import bench as report
+from optipath.kernels.catalog import REFLECTION
 from optipath.lab import chart as chart_module
 from optipath.lab import chart as module
-from optipath.lab.bench import Timing, bench
 from optipath.lab.chart import (
     FULL,
     QUICK,
@@ -32,7 +28,7 @@ from optipath.lab.errors import AS_PASSED, Errors, interface_errors, path_errors
 from optipath.lab.regions import PLACES, REGIONS, in_region
 from paths import chain
 from pictures import faults_of, texts_of
-from tables import rows, slow, slow_except
+from tables import rows, slow
 
 LITTLE = Effort(samples=1, rounds=1, engines=("numpy",))
 MORE = Effort(samples=2, rounds=1, engines=("numpy",))
@@ -329,38 +325,3 @@ def test_peers_stand_in_a_panel_of_their_own_with_their_names(tmp_path):
     colours = {line.get_color() for line in panel[2].get_lines() if line.get_marker() == "o"}
     assert len(colours) == 2
     op.plots.save(panel, tmp_path / "x.png", 60)
-
-
-# Benches.
-
-
-@pytest.mark.parametrize("long", slow_except([False], [False, True]))
-def test_no_formula_is_compiled_twice_and_of_several_sources_the_first_gives_the_matrix(
-    monkeypatch, long
-):
-    compiled, texts = NumpyEngine.compiled, Counter()
-
-    def counted(engine, formula):
-        texts[tuple(map(repr, formula.steps)), formula.dtype.name] += 1
-        return compiled(engine, formula)
-
-    monkeypatch.setattr(NumpyEngine, "compiled", counted)
-    monkeypatch.setattr(report, "race", lambda contenders, **_: run_once(contenders))
-    path, given = op.load_preset("npgr026"), {"long": long, "engines": ["numpy"]}
-    found = bench(path, lambda: None, largest=10_000, **given)
-    assert len(texts) > 2 * long
-    assert set(texts.values()) == {1}
-    counts = {1, 10, 100, 1_000, 10_000} if long else {100, 10_000}
-    assert {run["paths"] for run in found.batches} == counts
-    assert len(found.batches) == (5 * 4 if long else 2)
-    assert [run["method"] for run in found.methods] == [*METHODS[: None if long else 1]]
-    if long:
-        found = bench(op.load_preset("sky-and-window"), lambda: None, largest=1, **given)
-        assert {run["output"] for run in found.batches} == {"stokes", "mueller"}
-
-
-def run_once(contenders):
-    for name, action in contenders.items():
-        if "import" not in name:
-            action()
-    return dict.fromkeys(contenders, Timing(1.0, 1.0, 1.0))

@@ -2,74 +2,112 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from functools import partial
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.arguments import OLD_FILE, write
+from optipath import plots
+from optipath.cli.arguments import NEW_FILE, OLD_FILE, check_place, write
 from optipath.cli.console import JSON, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.options import StrictCommand
-from optipath.cli.preset_command import PresetGroup
-from optipath.paths.files.presets import beside, bound_preset, load_preset
-from optipath.values.files import text_of
+from optipath.cli.preset_command import PresetGroup, is_without_preset
+from optipath.paths.files.presets import beside, bound_preset
+from optipath.values.files import check_form, text_of
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable
     from pathlib import Path
 
     from rich.table import Table
 
     from optipath.cli.preset_command import Chosen
-    from optipath.lab.bench import Report
+    from optipath.lab.composition import Rates
     from optipath.paths.path_graph import PathGraph
 
 
 ENGINES = ("numpy", "numba", "jax")
+ELEMENTS = click.Option(
+    ["--elements"],
+    type=click.IntRange(3, 100_000),
+    default=1000,
+    help="How many elements the long path has that is composed.",
+)
 LARGEST = click.Option(
     ["--largest"],
     type=click.IntRange(1, 10**8),
-    help="The largest batch, by default 100,000 paths, or 1,000,000 with --long.",
+    help="The largest batch, by default 10,000 values, or 1,000,000 with --long.",
 )
 LONG = click.Option(
     ["--long"],
     is_flag=True,
-    help="Add batches of 1, 10 and so on, float32, Mueller matrices, methods; takes minutes.",
+    help="Add batches of 10, 100 and so on, and paths of 100 and 10,000 elements; takes minutes.",
 )
 ENGINE = click.Option(
     ["--engine", "engines"],
     type=click.Choice(ENGINES),
     multiple=True,
-    help="Measure this engine; may be given several times. By default all that are installed.",
+    help="Measure this engine; may be repeated. By default numpy, and numba if it is installed.",
 )
 THREADS = click.Option(
     ["--threads"],
     type=click.IntRange(1, 256),
     default=1,
-    help="How many threads share a batch of more than 65,536 paths.",
+    help="How many threads share a batch of more than 65,536 values.",
 )
+OUT = click.Option(["--out"], type=NEW_FILE, help="Draw it into this file, too (png, svg, pdf).")
 
 
-def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
-    """Time a preset or a TOML file: one run, and batches by every engine. Ends within 30 s."""
-    from optipath.lab.bench import bench  # noqa: PLC0415 - not for every command
+def _bench(chosen: Chosen, **options: Any) -> None:
+    """Time composing and tracing, of mixed paths and of a preset or file. Ends within 30 s."""
+    _measure({chosen.preset: _opened(chosen)}, **options)
 
-    def load() -> Any:
-        return bound_preset(load_preset(chosen.preset), chosen.preset, chosen.case, chosen.values)
 
-    path = _opened(chosen)
-    options["largest"] = options["largest"] or (1_000_000 if options["long"] else 100_000)
-    each = 4 * len(str(options["largest"])) + 4 if options["long"] else 3
-    steps = 5 + each * len(options["engines"] or ENGINES)
-    with progress_bar(steps) as tell:
-        report = bench(path, load, progress=lambda what: tell(what, advance=1), **options)
+def _without_preset(**options: Any) -> None:
+    if is_without_preset():
+        _measure({}, **options)
+
+
+def _measure(
+    paths: dict[str, PathGraph], *, out: Path | None, as_json: bool, **effort: Any
+) -> None:
+    from optipath.lab import bench, composition  # noqa: PLC0415 - not for every command
+
+    if out is not None:
+        check_form(out)
+        check_place(out)
+        plots.check_matplotlib()
+    with progress_bar() as tell:
+        rates = composition.measured(paths, progress=tell, **effort)
+    about = {"processor": bench.processor(), **bench.software(("numpy", "networkx", *ENGINES))}
     if as_json:
-        say_json({"preset": chosen.preset, **report._asdict()})
-        return
-    for table in _tables(report):
-        PlainConsole().print(table)
+        say_json({"rates": [each._asdict() for each in rates], "about": about})
+    else:
+        for path, several in groupby(rates, lambda each: each.path):
+            PlainConsole().print(_table(path, several))
+        say(", ".join(f"{name} {number}" for name, number in about.items()))
+    if out is not None:
+        from optipath.plots.throughput import throughput  # noqa: PLC0415 - an extra
+
+        plots.save(throughput(rates), out)
+        say(f"wrote {out}", err=as_json)
+
+
+def _table(path: str, rates: Iterable[Rates]) -> Table:
+    from optipath.lab.bench import rate  # noqa: PLC0415 - not for every command
+
+    heads, rows = ["per second", "median"], []
+    for each in rates:
+        rows.append([each.work, *(rate(number) for number in each[2:] if number)])
+        if each.by_hand:
+            heads[2:] = ["by hand", "median", "ratio"]
+            rows[-1].append(f"{each.best / each.by_hand:.3g}")
+    table = headed("", *heads, rows=rows, right=1, title=path, box=None)
+    for column in table.columns:
+        column.no_wrap = True
+    return table
 
 
 def _opened(chosen: Chosen) -> PathGraph:
@@ -86,42 +124,16 @@ def _opened(chosen: Chosen) -> PathGraph:
     return bound_preset(path, chosen.preset, None, beside(chosen.opened, stored, chosen.values))
 
 
-def _tables(report: Report) -> list[Table]:
-    from optipath.lab.bench import duration  # noqa: PLC0415 - not for every command
+_OPTIONS = (ELEMENTS, LARGEST, LONG, ENGINE, THREADS, OUT, JSON)
 
-    single = {name: [duration(1e-3 * time)] for name, time in report.single.items()}
-    times = defaultdict(list)
-    for row in report.batches:
-        name = f"{row['engine']} {row['dtype']} {row['output']}"
-        times[name].append(duration(1e-9 * row["ns_least"]))
-    methods = {
-        f"{row['engine']} {row['method']}": [
-            duration(1e-9 * row["ns_least"]),
-            duration(row["first_s"]),
-        ]
-        for row in report.methods
-    }
-    once = _table("done once", ["time"], single)
-    once.caption = ", ".join(f"{name} {number}" for name, number in report.software.items())
-    once.caption_justify = "left"
-    sizes = [f"{size:,}" for size in dict.fromkeys(row["paths"] for row in report.batches)]
-    paths = report.methods[0]["paths"]
-    return [
-        once,
-        _table("time a path, by the number of paths", sizes, times),
-        _table(f"methods, {paths:,} paths", ["time a path", "first call"], methods),
-    ]
-
-
-def _table(title: str, heads: list[str], rows: Mapping[str, list[str]]) -> Table:
-    labelled = [[name, *times] for name, times in rows.items()]
-    table = headed("", *heads, rows=labelled, right=1, title=title, box=None)
-    for column in table.columns:
-        column.no_wrap = True
-    return table
-
-
-bench = PresetGroup("bench", _bench, (LARGEST, LONG, ENGINE, THREADS, JSON))
+bench = PresetGroup(
+    "bench",
+    _bench,
+    _OPTIONS,
+    callback=_without_preset,
+    params=[*_OPTIONS],
+    subcommand_metavar="[PRESET] [OPTIONS]",
+)
 
 
 SAMPLES = click.Option(

@@ -11,7 +11,7 @@ from optipath.cli.arguments import NEW_FILE, OLD_FILE, check_place, write
 from optipath.cli.console import reported_progress, say
 from optipath.cli.options import given_options
 from optipath.cli.plot_command import title_of
-from optipath.cli.preset_command import PresetGroup
+from optipath.cli.preset_command import PresetGroup, is_without_preset
 from optipath.paths.files.presets import preset_names
 from optipath.values.files import check_form, text_of
 
@@ -88,11 +88,7 @@ def _chart(chosen: Chosen, **options: Any) -> None:
 
 
 def _without_preset(*, interface: bool, source: Path | None, **options: Any) -> None:
-    given = given_options()
-    if click.get_current_context().invoked_subcommand is not None:
-        if given:
-            where = "stands behind the preset, or in its place; move it there, or leave it out"
-            raise click.UsageError(f"{given[0]} {where}")
+    if not is_without_preset():
         return
     if not interface and source is None:
         names = ", ".join(preset_names())

@@ -151,7 +151,9 @@ def say_descriptions(kind: str, descriptions: dict[str, str], *, as_json: bool) 
 
 
 @contextmanager
-def progress_bar(total: float, *, remaining: bool = False) -> Iterator[Callable[..., None]]:
+def progress_bar(
+    total: float | None = None, *, remaining: bool = False
+) -> Iterator[Callable[..., None]]:
     """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
     columns: list[Any] = [TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()]
     columns += [TextColumn("left:"), TimeRemainingColumn()] if remaining else []

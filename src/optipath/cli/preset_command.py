@@ -10,7 +10,7 @@ import click
 
 from optipath.cli.arguments import RANGES, axis_argument
 from optipath.cli.console import JSON, say, say_json
-from optipath.cli.options import StrictCommand, WholeHelp, flag
+from optipath.cli.options import StrictCommand, WholeHelp, flag, given_options
 from optipath.composer.composer import CHOICES
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, PresetError
@@ -181,6 +181,17 @@ def _option(
     known = f"words: {', '.join(words)}" if words else ""
     described = printable("; ".join(filter(None, [about, known, f"[{default}]"])))
     return click.Option([flag(name), name], metavar=metavar, help=described)
+
+
+def is_without_preset() -> bool:
+    """Tell whether no preset is given; options then are in its place, and not before it."""
+    given = given_options()
+    if click.get_current_context().invoked_subcommand is None:
+        return True
+    if given:
+        where = "stands behind the preset, or in its place; move it there, or leave it out"
+        raise click.UsageError(f"{given[0]} {where}")
+    return False
 
 
 def no_preset() -> click.UsageError:

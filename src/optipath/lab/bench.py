@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import platform
-import subprocess
-import sys
-from functools import cache, partial
+from functools import partial
 from importlib.metadata import PackageNotFoundError, version
-from itertools import product
 from pathlib import Path
 from statistics import median
 from time import perf_counter
@@ -15,77 +12,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.composer.composer import Composer
-from optipath.engines.choice import ENGINES, is_installed
 from optipath.errors import ParameterError
-from optipath.kernels.catalog import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
-
-
-_DTYPES = ("float64", "float32")
-_OUTPUTS = ("stokes", "mueller")
-_BATCH = ("engine", "dtype", "output", "paths")
-_COMPARED = 100_000
-_STATEMENTS = {
-    # What is imported is loaded as it is asked for first, so that an import alone says little.
-    "import optipath, run a path": "from optipath import Detector, Source; "
-    "(Source() >> Detector()).trace()",
-    "import numpy, networkx": "import numpy, networkx",
-}
-
-
-class Report(NamedTuple):
-    """How long a path takes: single calls in ms, batches in ns a path."""
-
-    single: dict[str, float]
-    batches: list[dict[str, Any]]
-    methods: list[dict[str, Any]]
-    software: dict[str, str]
-
-
-def bench(
-    path: PathGraph,
-    load: Callable[[], object],
-    *,
-    largest: int = _COMPARED,
-    long: bool = False,
-    engines: Iterable[str] = (),
-    threads: int = 1,
-    progress: Callable[[str], object] = lambda _: None,
-) -> Report:
-    """Measure a path."""
-    result = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
-
-    @cache
-    def plan_of(engine: Any, dtype: Any, method: Any) -> Plan:
-        # Kept, so that nothing is compiled for one batch after the other.
-        return Composer(engine=engine, dtype=dtype, method=method, threads=threads).compose(path)
-
-    plan = Composer().compose(path)
-    one = {name: float(value[0]) for name, value in random_values(plan, 1).items()}
-    single: dict[str, Callable[[], object]] = {
-        "load": load,
-        "compose": partial(Composer().compose, path),
-        "one run of plain floats": partial(plan.run_all, **one),
-    }
-    for name, statement in _STATEMENTS.items():
-        single[name] = partial(subprocess.run, [sys.executable, "-c", statement], check=True)
-    timings = race(single, tick=progress)
-    kinds = slice(None if long else 1)
-    # First, since their first calls tell how long they take to be compiled.
-    compared = product(result, METHODS[kinds], [min(_COMPARED, largest)])
-    methods = _timed(plan_of, ("engine", "method", "paths"), compared, progress)
-    tens, batches = [10**power for power in range(len(str(largest)))], []
-    for size in tens if long else sorted({max(1, largest // 100), largest}):
-        each = product(result, _DTYPES[kinds], _OUTPUTS[kinds], [size])
-        batches += _timed(plan_of, _BATCH, each, progress)
-    single_ms = {name: 1e3 * timing.least for name, timing in timings.items()}
-    return Report(single_ms, batches, methods, software(("numpy", "networkx", *result)))
 
 
 def software(names: Iterable[str]) -> dict[str, str]:
@@ -97,42 +29,6 @@ def software(names: Iterable[str]) -> dict[str, str]:
         except PackageNotFoundError:
             continue
     return results
-
-
-def _timed(
-    plan_of: Callable[..., Plan],
-    labels: tuple[str, ...],
-    choices: Iterable[tuple[Any, ...]],
-    progress: Callable[[str], object],
-) -> list[dict[str, Any]]:
-    runs = {", ".join(map(str, each)): dict(zip(labels, each, strict=True)) for each in choices}
-    contenders: dict[str, Callable[[], object]] = {}
-    for name, run in runs.items():
-        plan = plan_of(run["engine"], run.get("dtype", "float64"), run.get("method", "stable"))
-        values = random_values(plan, run["paths"])
-        values = {name: value.astype(plan.dtype) for name, value in values.items()}
-        action: Callable[..., object] = plan.run_all
-        if run.get("output") == "mueller":
-            ends = next(iter(plan.whole.sources)), next(iter(plan.whole.readings))
-            action = partial(plan.mueller, *ends)
-        contenders[name] = partial(_finished, action, values)
-    return [
-        {
-            **runs[name],
-            "ns_least": 1e9 * timing.least / runs[name]["paths"],
-            "ns_median": 1e9 * timing.middle / runs[name]["paths"],
-            "first_s": timing.first,
-        }
-        for name, timing in race(contenders, tick=progress).items()
-    ]
-
-
-def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
-    """Run, and wait for engines that answer before they are done."""
-    result = run(**values)
-    for light in result.values() if isinstance(result, dict) else [result]:
-        numbers = light.matrix if hasattr(light, "matrix") else light.stokes
-        getattr(numbers, "block_until_ready", bool)()
 
 
 def random_values(plan: Plan, count: int, seed: int = 1) -> dict[str, Any]:
@@ -220,6 +116,20 @@ def duration(seconds: float) -> str:
         return f"{rounded:,.0f} s"
     size = next((size for size in _UNITS if rounded >= size), 1e-9)
     return f"{rounded / size:.3g} {_UNITS[size]}"
+
+
+_PREFIXES = {1e9: " G", 1e6: " M", 1e3: " k"}
+
+
+def rate(number: float) -> str:
+    """Return how many are done a second, with three digits.
+
+    >>> [rate(number) for number in (28_412.0, 999_600.0, 4.5, 2.5e9)]
+    ['28.4 k', '1 M', '4.5', '2.5 G']
+    """
+    rounded = float(f"{number:.3g}")
+    size = next((size for size in _PREFIXES if rounded >= size), 1.0)
+    return f"{rounded / size:.3g}{_PREFIXES.get(size, '')}"
 
 
 _INNER, _OUTER = 2048, 4_000_000
