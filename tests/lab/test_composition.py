@@ -108,7 +108,7 @@ def test_no_formula_is_compiled_twice_and_of_several_sources_the_first_gives_the
 
 def test_light_that_differs_from_that_by_hand_is_an_error(monkeypatch):
     monkeypatch.setattr(composition, "walked", lambda *_: np.ones((4, 1)))
-    with pytest.raises(op.OptipathError, match="10 mixed elements: light by hand is not that of"):
+    with pytest.raises(op.OptipathError, match="light of 10 elements by hand is not that of"):
         measured({}, elements=10)
 
 
