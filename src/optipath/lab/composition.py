@@ -156,8 +156,10 @@ def measured(
         if action
     }
     gc.freeze()  # Or composing one path pays for a look through the objects of all.
-    timings = race(contenders, tick=progress)
-    gc.unfreeze()
+    try:
+        timings = race(contenders, tick=progress)
+    finally:
+        gc.unfreeze()
     results = []
     for key, (name, work, times, *_) in works.items():
         found = [timings[key + who] for who in _WHO if key + who in timings]
@@ -167,6 +169,9 @@ def measured(
 
 
 _WHO = "", ", by hand"
+_MOST = 1_000_000
+"""Of how many values at once there are matrices by hand, of 128 bytes each."""
+
 _LONG = 50
 """From how many elements on these are counted, and light is that of one value."""
 
@@ -180,7 +185,8 @@ def _works(
     """Yield what is measured, how often a call does it, and the call by optipath and by hand."""
 
     def by_hand(values: Mapping[str, Any], start: Array) -> Action | None:
-        return partial(walked, graph, values, start) if graph else None
+        fits = graph and np.size(next(iter(values.values()))) <= _MOST
+        return partial(walked, graph, values, start) if fits else None
 
     plan, compose, length = Composer().compose(path), Composer().compose, len(path)
     ends = next(iter(plan.whole.sources)), next(iter(plan.whole.readings))
