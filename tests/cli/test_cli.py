@@ -116,6 +116,8 @@ TOLD = [
     ("", ["presets"]),
     ("run npgr026 --case 3", ["published", "1.2e-10", "-1.21725e-10", "note: The pub"]),
     ("show npgr026", ["delta", "53 deg", "0 deg .. 90 deg", "X2.in", "azimuth=-$rho", "0.666"]),
+    ("show npgr026 --frames --case 7", ["X1.in", "0.829 -0.559 0", "the light", "-34 deg"]),
+    ("show npgr026-3d --frames", ["P.out", "0 -0.927 0.375", "0 deg"]),
     ("explain npgr026 --case 1 --rho 20", ["1 detector, 4 steps", "X2.reflected"]),
     ("polarization npgr026 --n1 1.5 --n2 1.5 --rho 90", ["polarisation changes S0 by up to"]),
     ("polarization fresnel-rhomb", ["polarisation changes nothing"]),

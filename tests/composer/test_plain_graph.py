@@ -3,6 +3,7 @@
 import json
 import random
 from contextlib import suppress
+from copy import copy
 
 import networkx as nx
 import numpy as np
@@ -129,7 +130,7 @@ def test_what_is_no_graph_is_refused():
 
 def test_attributes_of_others_are_kept_and_say_nothing():
     graph = malus()
-    graph.graph["name"] = "Malus"
+    graph.graph |= {"name": "Malus", 3: 4, "self": 5}
     for about in (*graph.nodes.values(), *graph.edges.values()):
         about |= {
             "color": "red",
@@ -147,6 +148,11 @@ def test_attributes_of_others_are_kept_and_say_nothing():
     assert there_again.nodes["eye"]["color"] == "red"
     assert there_again.edges["lamp", "filter", 0]["weight"] == 2.0
     assert path.trace() == op.Composer().compose(graph).run() == op.Light([1.0, 1.0, 0.0, 0.0])
+    for other in (copy(path), path.bind(), path.reading("intensity"), path.reversed()):
+        assert other.to_networkx().graph["name"] == "Malus"
+    path.remove("eye")
+    assert (path >> op.Attenuator(0.5)).nodes["filter"]["color"] == "red"
+    assert path.to_networkx(text=True).nodes["filter"]["pos"] == "array([0., 0.])"
 
 
 def test_every_preset_comes_back_from_networkx():

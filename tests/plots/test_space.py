@@ -475,3 +475,16 @@ def test_angles_have_names_values_and_arcs_and_light_ellipses_as_large_as_they_a
         tilt = op.Parameter("tilt", "10 arcsec", **unit)
         path = op.Source() >> op.Polarizer(tilt) >> op.Detector()
         assert [angle.text for angle in scene_of(path).angles] == ["tilt = 10 arcsec"]
+
+
+def test_frames_are_drawn_as_a_path_has_them_and_turns_by_numbers_have_their_names():
+    path = op.load_preset("npgr026-3d", case="7")
+    frames = path.frames()
+    for port, (_, drawn) in scene_of(path).frames.items():
+        name, _, way = port.partition(".")
+        frame = frames[name][way]
+        assert np.allclose(drawn, [frame.x, frame.y, frame.z], atol=1e-15), port
+    path = op.load_preset("ellipsometer-pcsa")
+    drawn = {angle.text for angle in scene_of(path).angles if angle.name == "turn"}
+    turns = {f"turn = {np.degrees(t):.5g} deg" for t in path.frames().turns.values() if t}
+    assert drawn == turns == {"turn = 90 deg", "turn = -90 deg"}

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import Wiring
-from optipath.elements.element import Element
 from optipath.elements.vertex_chain import VerticesByAngles
+from optipath.faults import shown
 from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
 from optipath.values.curve_value import CurveValue
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.composer.composer import Path
+    from optipath.elements.element import Element
 
 
 _FEW = 4
@@ -61,13 +62,13 @@ def element_values(element: Element) -> list[str]:
 
 def _texts(element: Element) -> dict[str, str]:
     domains = element.domains()
-    shown = {}
+    result = {}
     for f in fields(element):  # type: ignore[arg-type]
         value = getattr(element, f.name)
         if value is None or (isinstance(value, (int, float, str)) and value == f.default):
             continue
-        shown[f.name] = value_text(value, domains[f.name].unit)
-    return shown
+        result[f.name] = value_text(value, domains[f.name].unit)
+    return result
 
 
 _UNITS = {"azimuth": "deg", "length": "mm"}
@@ -75,14 +76,19 @@ _UNITS = {"azimuth": "deg", "length": "mm"}
 
 def with_texts(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
     """Return a plain graph whose values are texts, in place; the kind of an element is its text."""
-    abouts = [graph.graph, *graph.nodes.values(), *graph.edges.values()]
-    for about in abouts:
-        if isinstance(element := about.get("element"), Element):
-            about |= {"element": element.kind or type(element).__name__, **_texts(element)}
-        for name, value in about.items():
-            if name in _UNITS or not isinstance(value, (str, int, float)):
-                named = tuple(value) if isinstance(value, dict) and name != "frames" else value
-                about[name] = value_text(named, _UNITS.get(name, ""))
+    for name in {"declared", "cases", "choices"} & graph.graph.keys():
+        graph.graph[name] = ", ".join(map(str, graph.graph[name]))
+    for link in graph.edges.values():
+        units = {name: unit for name, unit in _UNITS.items() if name in link}
+        link |= {name: value_text(link[name], unit) for name, unit in units.items()}
+    for node in graph.nodes.values():
+        element = node["element"]
+        node |= {"element": element.kind or type(element).__name__, **_texts(element)}
+        if "frames" in node:
+            node["frames"] = str(node["frames"])
+    for about in (graph.graph, *graph.nodes.values(), *graph.edges.values()):
+        odd = {name: one for name, one in about.items() if not isinstance(one, (str, int, float))}
+        about |= {name: shown(one) for name, one in odd.items()}
     return graph
 
 

@@ -44,7 +44,8 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
     turning.reverse_elements(sources)
     PathError.raise_for([*faults, *turning.faults, *turning.link_faults()])
     choices = reversed_choices(turning.wiring, turning.port)
-    result = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
+    result = nx.MultiDiGraph()
+    result.graph.update(graph.graph, choices=choices)
     for name in [*graph][::-1]:
         result.add_node(name, element=turning.elements[name], frames=turning.frames(name))
     for link in [*graph.edges(keys=True)][::-1]:
