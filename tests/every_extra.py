@@ -22,7 +22,7 @@ from optipath.errors import OptipathError
 from optipath.explorer.answers import PageAnswers
 from optipath.explorer.paths import ExploredPresets
 from optipath.explorer.server import PageServer
-from optipath.raising import EXTRAS
+from optipath.extras import EXTRAS
 
 COMMANDS = """
 --help

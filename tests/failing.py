@@ -1,6 +1,6 @@
 """What fails in another process, which knows this folder and no other module of the tests."""
 
-from optipath.raising import missing_extra
+from optipath.extras import missing_extra
 
 
 def fails():

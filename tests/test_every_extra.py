@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from optipath.raising import EXTRAS
+from optipath.extras import EXTRAS
 from tables import slow
 
 SCRIPT = Path(__file__).with_name("every_extra.py")

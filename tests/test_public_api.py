@@ -16,7 +16,7 @@ import pytest
 import optipath as op
 from optipath.engines.choice import ENGINES, REGISTRY
 from optipath.kernels.catalog import METHODS, REFLECTION
-from optipath.light.conventions import CONVENTIONS, ConventionName
+from optipath.light.conventions import CONVENTIONS, Software
 from optipath.plots.hemisphere_side import QUANTITIES, PixelName
 from tables import rows
 
@@ -28,7 +28,7 @@ FOR_DEVELOPERS = {"test", "lint", "docs", "browser"}
 ROOMS = [
     "faults",
     "errors",
-    "raising",
+    "extras",
     "public_names",
     "kernels",
     "values",
@@ -300,7 +300,7 @@ def test_the_user_code_that_is_type_checked_runs(name, capsys):
 def test_words_of_a_checker_are_those_of_the_library():
     assert tuple(REGISTRY) == ENGINES[1:]
     assert tuple(REFLECTION.methods) == METHODS
-    assert tuple(CONVENTIONS) == get_args(ConventionName)
+    assert tuple(CONVENTIONS) == get_args(Software)
     assert tuple(QUANTITIES) == get_args(PixelName)
 
 

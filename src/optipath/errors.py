@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from optipath.faults import Fault, sentence
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from optipath.faults import Medium
 
@@ -55,6 +56,52 @@ class OptipathError(Exception):
         """
         if several := dict.fromkeys(faults):
             raise cls(*several, about=about)
+
+    @classmethod
+    @contextmanager
+    def collecting(cls, faults: list[str], about: str = "") -> Iterator[None]:
+        """Keep the faults of what goes wrong inside, each under what it is about, and go on.
+
+        Parameters
+        ----------
+        faults : list of str
+            Where they are kept.
+        about : str, optional
+            What is in front of each.
+
+        Yields
+        ------
+        None
+
+        Examples
+        --------
+        >>> faults = []
+        >>> with OptipathError.collecting(faults, about="there"):
+        ...     raise PathError("it is dark")
+        >>> faults
+        ['there: it is dark']
+        """
+        try:
+            yield
+        except cls as result:
+            faults += [fault.under(about) for fault in result.faults]
+
+    @classmethod
+    @contextmanager
+    def wrapping(cls, about: str = "") -> Iterator[None]:
+        """Raise what goes wrong inside as this error, under what it is about, or as it is.
+
+        Examples
+        --------
+        >>> with ParameterError.wrapping("there"):
+        ...     raise UnitError("it is dark")
+        Traceback (most recent call last):
+        optipath.errors.ParameterError: there: it is dark
+        """
+        try:
+            yield
+        except OptipathError as result:
+            raise cls(*[fault.under(about or result.about) for fault in result.faults]) from None
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its faults are what it is.

@@ -13,7 +13,6 @@ import numpy as np
 from optipath.cli.options import flag
 from optipath.errors import OptipathError, ParameterError
 from optipath.faults import shown
-from optipath.raising import told_as
 from optipath.values.files import message_of, write_file
 from optipath.values.text import read_axis_text
 from optipath.values.wavelength import Wavelength
@@ -38,7 +37,7 @@ def axis_argument(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisV
     # A bare wavelength may be nanometres, micrometres or electronvolts; a file says its units.
     is_shown = isinstance(parameter, Wavelength) or text.lstrip().startswith("@")
     unit = "" if is_shown else parameter.unit
-    with told_as(ParameterError):
+    with ParameterError.wrapping():
         return read_axis_text(text, parameter, unit, uses)
 
 

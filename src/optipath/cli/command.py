@@ -27,8 +27,8 @@ from optipath.errors import (
     PhotonWarning,
     StoreWarning,
 )
+from optipath.extras import needing
 from optipath.faults import Fault, did_you_mean, printable, shown
-from optipath.raising import needing
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

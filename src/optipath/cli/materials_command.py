@@ -20,14 +20,13 @@ from optipath.cli.console import (
 )
 from optipath.cli.options import StrictCommand, completed_by, given_options
 from optipath.elements.fresnel import effective_index, fresnel_reflection
-from optipath.errors import MaterialError
+from optipath.errors import MaterialError, OptipathError
 from optipath.faults import did_you_mean, listed
 from optipath.materials.database import described, known_spans, pages_with
 from optipath.materials.database_names import CURATED, VACUUM, alike, catalog_pages
 from optipath.materials.material import Material
 from optipath.materials.quantities import INCIDENCE as INCIDENCE_DOMAIN
 from optipath.materials.quantities import plain
-from optipath.raising import collecting
 from optipath.values.curve import WavelengthRange, span_text
 from optipath.values.curve_value import CurveValue
 from optipath.values.units import format_quantity, in_unit, parse_quantity
@@ -182,9 +181,9 @@ def material_report(
     faults: list[str] = []
     where, angle = [], 0.0
     for text in wavelengths:
-        with collecting(faults, about="--at"):
+        with OptipathError.collecting(faults, about="--at"):
             where.append(float(Wavelength().resolve(text).value))
-    with collecting(faults):
+    with OptipathError.collecting(faults):
         asked = parse_quantity(incidence, "angle", "deg")
         angle = float(INCIDENCE_DOMAIN.check("--incidence", asked))
     if faults:

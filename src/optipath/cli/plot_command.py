@@ -13,11 +13,10 @@ from optipath.cli.arguments import NEW_FILE, array_faults, check_place
 from optipath.cli.console import say
 from optipath.cli.options import flag, parameter_name
 from optipath.cli.preset_command import READS, PresetGroup
-from optipath.errors import ParameterError
+from optipath.errors import OptipathError, ParameterError
 from optipath.faults import did_you_mean, listed, shown, unknown
 from optipath.materials.named_materials import WAVELENGTH, materials_among
 from optipath.paths.files.presets import preset_of_case
-from optipath.raising import collecting
 from optipath.values.files import check_form
 from optipath.values.units import displayed
 
@@ -256,7 +255,7 @@ def _faults(*, kind: str | None, out: Path | None, **requests: Any) -> list[str]
                 )
     if out is None:
         return [*faults, "--out is missing, and a picture is drawn into a file; add --out plot.png"]
-    with collecting(faults):
+    with OptipathError.collecting(faults):
         check_form(out)
         check_place(out)
     return faults

@@ -32,7 +32,6 @@ from optipath.paths.files.presets import (
     preset_descriptions,
     preset_names,
 )
-from optipath.raising import collecting
 from optipath.values.cases import ALL
 from optipath.values.text import AxisValues, IdleValues
 from optipath.values.wavelength import Wavelength
@@ -298,11 +297,11 @@ def chosen_by(
     results = Cases(Chosen(preset, path, case, single, axes) for case in several)
     results.together = together
     if faults or axes or len(results) > 1:
-        with collecting(faults):
+        with OptipathError.collecting(faults):
             results.each(Chosen.path)
     if faults:
         for name in filter(path.parameters.__contains__, axes):
-            with collecting(faults):
+            with OptipathError.collecting(faults):
                 path.bind(**{name: axes[name].given})
         raise ParameterError(*dict.fromkeys(faults))
     return results
@@ -331,7 +330,7 @@ def _value(
     if name in path.choices:
         return text
     parameter = path.parameters.get(name, WAVELENGTH)
-    with collecting(faults):
+    with OptipathError.collecting(faults):
         if is_material(parameter, text, uses):
             other = extinction_with(uses, name)
             k = _value(path, other, arguments, uses, faults) if other in arguments else None

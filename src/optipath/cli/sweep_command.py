@@ -24,10 +24,9 @@ from optipath.cli.outcome import (
 )
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError
+from optipath.errors import OptipathError, ParameterError
 from optipath.faults import listed, shown
 from optipath.light.quantities import PRINTED, Numbers
-from optipath.raising import collecting
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.datasets import csv_parts
 from optipath.values.columns import columns_of
@@ -109,7 +108,7 @@ def out_faults(out: str) -> list[str]:
     if file.suffix in _TEXTS and (file.exists() or file.is_symlink()):
         return [f"{name} is there already, and stays; name another file, or remove it"]
     faults: list[str] = []
-    with collecting(faults, about="--out"):
+    with OptipathError.collecting(faults, about="--out"):
         check_place(file)
     return faults
 

@@ -33,7 +33,6 @@ from optipath.errors import ComposerError, PathError
 from optipath.faults import Cure, Fault, shown, unknown
 from optipath.kernels.catalog import METHODS
 from optipath.plan.plan import Plan
-from optipath.raising import collecting
 from optipath.values.operands import Operand
 from optipath.values.precision import precision_name, whole_number
 
@@ -227,7 +226,7 @@ class Composer:
             value = getattr(self, option)
             if value is not None or option != "loops":
                 faults += unknown(option, value, choices)
-        with collecting(faults, ComposerError):
+        with ComposerError.collecting(faults):
             object.__setattr__(self, "dtype", precision_name(self.dtype))
         ComposerError.raise_for(faults)
         if not is_installed(self.engine):

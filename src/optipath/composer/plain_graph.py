@@ -10,11 +10,10 @@ import networkx as nx
 
 from optipath.composer.wiring import LOOPS, link_text
 from optipath.elements.element import Element, natural_of
-from optipath.errors import PathError
+from optipath.errors import OptipathError, PathError
 from optipath.faults import closest, did_you_mean, shown, unknown
 from optipath.light.frame import Frame
 from optipath.materials.quantities import ANGLE
-from optipath.raising import collecting
 from optipath.values.arrays import entries_of
 from optipath.values.cases import Case
 from optipath.values.domains import Domain
@@ -101,7 +100,7 @@ def whole(about: Mapping[Any, Any], faults: list[str]) -> dict[str, Any]:
     ]:
         faults.append(f"choices of a path must be as path.offer makes them, not {shown(choices)}")
     faults += unknown("loops", result["loops"], LOOPS)
-    with collecting(faults, PathError):
+    with PathError.collecting(faults):
         names = entries_of("declared", "names of parameters", result["declared"], PathError)
         if [name for name in names if not isinstance(name, str)]:
             faults.append(f"declared must be a sequence of names, not {shown(names)}")
@@ -214,7 +213,7 @@ def _others(
     for name, domain in _VALUES.items():
         value = about.get(name)
         if value is not None:
-            with collecting(faults):
+            with OptipathError.collecting(faults):
                 value = stored_value(f"{named} {name}", value, domain)
                 Use(f"{named} {name}", value, domain).check()
         if value is not None or name == "azimuth":

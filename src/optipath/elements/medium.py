@@ -38,7 +38,6 @@ from optipath.materials.quantities import (
     OptionalAxis,
     RotatoryPower,
 )
-from optipath.raising import collecting
 from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.arrays import check_broadcast, same
 from optipath.values.domains import Domain, Refused
@@ -178,7 +177,7 @@ class Medium(Element, kind="medium"):
         faults: list[str] = []
         numbers = []
         for name, value, domain in (("k", k, _EXTINCTION), ("wavelength", wavelength, WAVELENGTH)):
-            with collecting(faults, ValueFault):
+            with ValueFault.collecting(faults):
                 numbers.append(domain.check(name, value))
         ValueFault.raise_for(faults)
         check_broadcast({"k": np.shape(numbers[0]), "wavelength": np.shape(numbers[1])})

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 import numpy as np
 
 from optipath.elements.coupling import Coupling, numbers_of
-from optipath.errors import PathError, ValueFault
+from optipath.errors import OptipathError, PathError, ValueFault
 from optipath.faults import listed, shown
 from optipath.kernels.carriers.structures import FULL, JONES, mueller_of_jones
 from optipath.kernels.kernel import Kernel, KernelFamily, called, guarded
@@ -19,7 +19,6 @@ from optipath.light.decompositions import tolerance_of
 from optipath.light.passive import are_passive, cure_of, gain, problem_of
 from optipath.materials.index_domains import RowDomain
 from optipath.materials.quantities import REAL, YES_OR_NO
-from optipath.raising import collecting
 from optipath.values.agreement import is_single
 from optipath.values.arrays import broadcast_fault, same
 from optipath.values.domains import Domain, StokesDomain, Within
@@ -133,7 +132,7 @@ class OwnWays:
         faults: list[str] = []
         bad = np.flatnonzero(~_EMITTED.allows(lights))[:1].tolist()
         for place in bad:
-            with collecting(faults, ValueFault):
+            with ValueFault.collecting(faults):
                 _EMITTED.check(f"the light of {self._named()}", lights[place])
         return [(place, fault) for place, fault in zip(bad, faults, strict=False)]
 
@@ -424,7 +423,9 @@ def domains_of(element_class: type[Any]) -> dict[str, Domain]:
     results: dict[str, Domain] = {}
     faults: list[str] = []
     for name in [field.name for field in own]:
-        with collecting(faults, about=f"field '{name}' of element class {element_class.__name__}"):
+        with OptipathError.collecting(
+            faults, about=f"field '{name}' of element class {element_class.__name__}"
+        ):
             results[name] = _domain(hints[name])
     PathError.raise_for(faults)
     return results

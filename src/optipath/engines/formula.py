@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 import numpy as np
 
 from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, Symbol
+from optipath.extras import missing_extra
 from optipath.kernels.trigonometry import (
     DIGITS,
     any_quadrant,
@@ -24,7 +25,6 @@ from optipath.kernels.trigonometry import (
     from_nearer_axis,
     without_rounding,
 )
-from optipath.raising import missing_extra
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

@@ -18,7 +18,6 @@ from optipath.materials.named_materials import (
 )
 from optipath.paths.binding import from_materials
 from optipath.paths.files.presets import beside
-from optipath.raising import collecting
 from optipath.values.parameters import unknown_parameter
 
 if TYPE_CHECKING:
@@ -89,7 +88,7 @@ def _parts(
     read: dict[str, Any] = {}
     for name in names:
         if name in argument and (name in needed or argument[name] is not None):
-            with collecting(faults, ParameterError):
+            with ParameterError.collecting(faults):
                 read[name] = readers[name](f"{prefix}{name}", argument[name])
     if faults:
         raise ParameterError(*faults)

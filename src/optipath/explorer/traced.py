@@ -22,7 +22,6 @@ from optipath.materials.quantities import plain
 from optipath.paths.binding import from_materials
 from optipath.paths.energy import lights_along
 from optipath.plots.scene.layout import scene_of
-from optipath.raising import collecting
 from optipath.sweeps.datasets import heading
 from optipath.sweeps.grid import SweepGrid, sweep_axis
 from optipath.values.text import read_axis_text
@@ -58,7 +57,7 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
     results |= _curve(state)
     results |= {"scene": None, "energy": None, "explanation": None}
     if "scene" in request.want:
-        with collecting(results["notes"]):
+        with OptipathError.collecting(results["notes"]):
             results["scene"] = scene_of(path, "a scene", along, **state.values).as_json()
     if "energy" in request.want:
         results["energy"] = energy_as_json(path, along)
@@ -184,7 +183,7 @@ def curve_grid(state: ReadState, request: RequestedCurve) -> SweepGrid:
         if any(sign in text for sign in _SEVERAL) or text in opened[name].all_words:
             faults.append(f"{shown(text)} is no end of a curve; give one number, with a unit")
         else:
-            with collecting(faults):
+            with OptipathError.collecting(faults):
                 single_text(explored, opened[name], text.strip())
     if faults:
         raise ParameterError(*(Fault.of(each).but(subject="curve") for each in faults))

@@ -79,8 +79,7 @@ WORDS = ("method", "dtype", "engine", "composing")
 
 
 def contenders(
-    composing: tuple[Any, ...] = CHOICES["composing"],
-    engines: tuple[Any, ...] = ("numpy", "numba"),
+    composing: tuple[Any, ...] = CHOICES["composing"], engines: Any = ("numpy", "numba")
 ) -> list[Composer]:
     """Return all that this machine can run, but JAX, which compiles anew for every path.
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.extras import needing
 from optipath.kernels.primitives import Primitives
 from optipath.materials.material import Material
-from optipath.raising import needing
 from optipath.values.operands import Operand, operand_of
 
 if TYPE_CHECKING:

@@ -31,10 +31,8 @@ _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 _WHITE = "give white=, the light without the sample, or op.Spectrum.illuminant('D65')"
 
-ObserverName: TypeAlias = Literal["CIE 1931 2 deg"]
 Beyond: TypeAlias = Literal["dark", "nearest"]
 OutOfGamut: TypeAlias = Literal["refuse", "clip", "scale", "keep"]
-OUT_OF_GAMUT: tuple[OutOfGamut, ...] = get_args(OutOfGamut)
 
 _STEP = 0.5 / 255
 """Half of a step of eight bits, by which no display differs."""
@@ -112,7 +110,7 @@ def srgb_of(
     light: Light, white: Any, seen: tuple[str, str], *, adapt: bool, out_of_gamut: str
 ) -> Srgb:
     """Return the colour of light; see `Light.to_srgb`."""
-    faults = unknown("out_of_gamut", out_of_gamut, OUT_OF_GAMUT)
+    faults = unknown("out_of_gamut", out_of_gamut, get_args(OutOfGamut))
     if white is None:
         faults.append(f"a colour is relative to what is white; {_WHITE}")
     if not isinstance(adapt, (bool, np.bool_)):

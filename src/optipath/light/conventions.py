@@ -57,7 +57,7 @@ CONVENTIONS = {
 """Those that light and Mueller matrices can be given in, by name."""
 
 
-ConventionName: TypeAlias = Literal[
+Software: TypeAlias = Literal[
     "mitsuba", "hecht", "ellipsometry", "py_pol", "pypolar", "pyelli", "scatmech", "tmm"
 ]
 
@@ -105,9 +105,7 @@ class EllipsometricAngles:
     psi: Any
     delta: Any
 
-    def ellipsometric_angles(
-        self, convention: ConventionName = "ellipsometry"
-    ) -> tuple[Array, Array]:
+    def ellipsometric_angles(self, convention: Software = "ellipsometry") -> tuple[Array, Array]:
         """Return psi and Delta as other software counts them, each in radians, of shape (...).
 
         Parameters

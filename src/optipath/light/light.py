@@ -55,13 +55,12 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    from optipath.light.color import Beyond, ObserverName, OutOfGamut, Srgb
-    from optipath.light.conventions import ConventionName
+    from optipath.light.color import Beyond, OutOfGamut, Srgb
+    from optipath.light.conventions import Software
     from optipath.values.precision import Array
 
 
-PictureOfLight: TypeAlias = Literal["ellipse", "poincare", "stokes"]
-_KINDS: tuple[PictureOfLight, ...] = get_args(PictureOfLight)
+Picture: TypeAlias = Literal["ellipse", "poincare", "stokes"]
 
 
 class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
@@ -174,7 +173,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
     @classmethod
     def from_(
-        cls, convention: ConventionName, stokes: Any, frame: Frame | None = None, **options: Any
+        cls, convention: Software, stokes: Any, frame: Frame | None = None, **options: Any
     ) -> Self:
         """Return light out of Stokes vectors of other software.
 
@@ -426,7 +425,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         frame = self._cached_frame("frame")
         return Light.of(nearest, frame, self._inherited(), wavelength=self.kept_wavelength)
 
-    def to(self, convention: ConventionName) -> Array:
+    def to(self, convention: Software) -> Array:
         """Return the Stokes vectors as other software writes them, of shape (..., 4).
 
         In the frame of this light: where the convention has x along p, ours is taken to be along
@@ -521,11 +520,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return self.of(*summed, measured=self.is_measured)
 
     def to_xyz(
-        self,
-        white: Any = None,
-        observer: ObserverName = "CIE 1931 2 deg",
-        *,
-        outside: Beyond = "dark",
+        self, white: Any = None, observer: str = "CIE 1931 2 deg", *, outside: Beyond = "dark"
     ) -> Array:
         """Return the tristimulus values X, Y and Z of spectral light, of shape (..., 3).
 
@@ -574,7 +569,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     def to_srgb(
         self,
         white: Any = None,
-        observer: ObserverName = "CIE 1931 2 deg",
+        observer: str = "CIE 1931 2 deg",
         *,
         outside: Beyond = "dark",
         adapt: bool = False,
@@ -619,9 +614,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
 
         return srgb_of(self, white, (observer, outside), adapt=adapt, out_of_gamut=out_of_gamut)
 
-    def plot(
-        self, kind: PictureOfLight = "ellipse", ax: Axes | None = None, **options: Any
-    ) -> Axes:
+    def plot(self, kind: Picture = "ellipse", ax: Axes | None = None, **options: Any) -> Axes:
         r"""Draw the light with Matplotlib.
 
         Parameters
@@ -655,7 +648,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         >>> op.Light([1.0, 0.0, 1.0, 0.0]).plot().get_title()
         'linear\nS0 = 1, DoP = 1, AoP = 45°'
         """
-        ParameterError.raise_for(unknown("kind of picture", kind, _KINDS))
+        ParameterError.raise_for(unknown("kind of picture", kind, get_args(Picture)))
         from optipath import plots  # noqa: PLC0415 - above light
 
         draw = getattr(plots, kind)

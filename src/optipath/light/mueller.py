@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.light.conventions import ConventionName
+    from optipath.light.conventions import Software
     from optipath.values.precision import Array
 
 
@@ -147,7 +147,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     @classmethod
     def from_(
         cls,
-        convention: ConventionName,
+        convention: Software,
         matrix: Any,
         frame_in: Frame | None = None,
         frame_out: Frame | None = None,
@@ -389,7 +389,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         matrix = reciprocal(self.matrix)
         return self.of(matrix, *frames, noise=lambda _: self.noise, given=self.is_given)
 
-    def to(self, convention: ConventionName) -> Array:
+    def to(self, convention: Software) -> Array:
         """Return the matrices as other software writes them, of shape (..., 4, 4).
 
         ``M.to(name) @ light.to(name)`` is ``(M @ light).to(name)``.

@@ -20,7 +20,6 @@ from optipath.materials.database_names import (
 )
 from optipath.materials.formulas import NEAREST_REQUESTED, DispersionFormula
 from optipath.materials.tables import EXTRAPOLATIONS, INTERPOLATIONS, PageCurve, Tabulated
-from optipath.raising import collecting
 from optipath.values.curve import span_text
 from optipath.values.curve_value import curve_at
 from optipath.values.files import input_file
@@ -114,7 +113,7 @@ def page_curve(
         faults.append("it has no list DATA of tables and formulas, as refractiveindex.info has")
         data = []
     for at, entry in enumerate(data, 1):
-        with collecting(faults, about=f"entry {at} of DATA"):
+        with OptipathError.collecting(faults, about=f"entry {at} of DATA"):
             entries.append(_entry(entry))
     MaterialError.raise_for([Fault.of(fault).cured(remedy) for fault in faults], about)
     # Of two entries that give one part, the later one counts, as the database's reader has it.

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from optipath.errors import MaterialError
+from optipath.extras import need, needing
 from optipath.faults import closest, shown
-from optipath.raising import need, needing
 from optipath.values.files import bytes_of
 
 VACUUM = "vacuum"

@@ -20,7 +20,6 @@ from optipath.kernels.dispersion import (
     sellmeier_square,
     tauc_lorentz_permittivity,
 )
-from optipath.raising import collecting
 from optipath.values.agreement import Agreement, first_faults, text_of
 from optipath.values.curve import Curve
 from optipath.values.domains import Domain
@@ -66,13 +65,13 @@ class FormulaCurve(Curve):
         vars(self).update(rows)
         faults: list[str] = []
         for name, value, domain in self.arguments():
-            with collecting(faults, ValueFault):
+            with ValueFault.collecting(faults):
                 if isinstance(value, Parameter):
                     Use(f"{name} of {self.label}", value, domain).check()
                 elif domain.check(f"{name} of {self.label}", value).ndim:
                     what = f"{name} of {self.label} is {shown(value)}"
                     raise ValueFault(f"{what}; give one number, or a Parameter for several")
-        with collecting(faults, ValueFault):
+        with ValueFault.collecting(faults):
             vars(self).update(span=read_span(f"span of {self.label}", self.span))
         ValueFault.raise_for(faults)
         own = {each.name for each in fields(self)} - {"label", "span", "unit"}

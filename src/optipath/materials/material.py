@@ -12,7 +12,6 @@ from optipath.faults import Cure, Fault, shown
 from optipath.materials.database import parts_by_name, parts_of_file
 from optipath.materials.formulas import EVERYWHERE, Cauchy, DrudeLorentz, Sellmeier, TaucLorentz
 from optipath.materials.tables import Tabulated
-from optipath.raising import told_as
 from optipath.values.arrays import as_argument, broadcast_fault, same, same_fields
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve, span_text
@@ -203,7 +202,7 @@ class Material:
         names = ["n", "k"] if k is None else ["n"]
         cures = {"k": "; or give k=0.0 where nothing absorbs"}
         table = read_columns(path, names, unit=unit, cures=cures)
-        with told_as(ValueFault, str(path)):
+        with ValueFault.wrapping(str(path)):
             return cls.tabulated(
                 table.wavelengths,
                 **{"k": k, **table.columns},

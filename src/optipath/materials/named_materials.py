@@ -11,7 +11,6 @@ from optipath.faults import Fault, listed, shown
 from optipath.materials.database_names import VACUUM
 from optipath.materials.material import Material
 from optipath.materials.quantities import plain
-from optipath.raising import told_as
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values, parameters_among
 from optipath.values.parameters import Parameter
@@ -56,7 +55,7 @@ def material_named(option: str, text: str, k: Any = None) -> Material:
             f"{option} takes one material, and {shown(text)} names several; give one, and write a "
             f"command for each"
         )
-    with told_as(ParameterError, option):
+    with ParameterError.wrapping(option):
         return Material.named(text, k=k)
 
 

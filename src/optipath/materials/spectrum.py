@@ -38,7 +38,6 @@ from optipath.materials.spectrum_kinds import (
     values_at,
     whole_power,
 )
-from optipath.raising import told_as
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve
 from optipath.values.curve_value import curve_values
@@ -175,13 +174,11 @@ class Spectrum(Curve):
         """
         read = read_columns(path, [column], unit=unit)
         values, title = read.columns[column], name or read.title
-        with told_as(ValueFault, str(path)):
+        with ValueFault.wrapping(str(path)):
             return cls.sampled(read.wavelengths, values, outside=outside, name=title)
 
     @classmethod
-    def histogram(
-        cls, edges: Any, powers: Any, *, outside: float | None = None, name: str = ""
-    ) -> Self:
+    def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
         """Return the spectrum of bins; its density is the power of a bin by its width in nm.
 
         Parameters

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 
-from optipath.errors import ValueFault
+from optipath.errors import OptipathError, ValueFault
 from optipath.faults import unknown
-from optipath.raising import collecting
 from optipath.values.arrays import locked
 from optipath.values.curve import Curve, span_text
 from optipath.values.domains import Domain
@@ -117,7 +116,7 @@ def _samples(label: str, name: str, raw_value: Any, faults: list[str]) -> np.nda
     """Return samples as a copy of their numbers, and tell what is wrong with them."""
     owner, domain = f"{name} of {label}", WAVELENGTH if name == "wavelengths" else _SAMPLE
     array = np.zeros(0)
-    with collecting(faults):
+    with OptipathError.collecting(faults):
         array = np.array(domain.check(owner, raw_value), np.float64)
         if array.ndim != 1 or not array.size:
             faults.append(f"{owner} must be a row of real numbers, not of shape {array.shape}")

@@ -30,7 +30,6 @@ from optipath.paths.editing import (
     turns_to,
 )
 from optipath.plan.inputs import Inputs
-from optipath.raising import collecting, told_as
 from optipath.values.arrays import changed, same
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values
@@ -104,7 +103,7 @@ def _materials_placed(
             del plain[name]
             continue
         before, other = len(faults), extinctions_with(uses, name)
-        with collecting(faults):
+        with OptipathError.collecting(faults):
             for use in places:
                 use.refuse_material(material)
         if len(faults) > before or not (other or waits_for(material)):
@@ -244,7 +243,7 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
     PathError.raise_for(unknown(f"{name}", word, choice.behind))
     element = element_at(graph, choice.node)
     if choice.place(graph) != word:
-        with told_as(PathError, f"'{choice.node}' cannot be moved to {name}={shown(word)}"):
+        with PathError.wrapping(f"'{choice.node}' cannot be moved to {name}={shown(word)}"):
             turns = turns_to(graph, choice.node) if graph.in_degree(choice.node) else None
             remove(graph, choice.node)
             insert(graph, choice.node, element, choice.behind[word], None)
@@ -255,7 +254,7 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
 def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
     """Return why the node of a choice cannot be put in its places, a sentence each."""
     node, faults = choice.node, list[str]()
-    with collecting(faults, PathError):
+    with PathError.collecting(faults):
         element = element_at(graph, node)
         enters, leaves = (natural_port(element, node, out=out) for out in (False, True))
         if not goes_straight(element, enters, leaves):
@@ -264,7 +263,7 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
     links = None if faults else Wiring(graph).links_from
     for word, port in choice.behind.items():
         at = f"place '{word}'"
-        with collecting(faults, PathError, at):
+        with PathError.collecting(faults, at):
             start, way = find_port(graph, port, out=True)
             if links is not None and (start == node or len(links.get((start, way), [])) != 1):
                 no_place = f"'{start}.{way}' feeds no one link that '{node}' could be put into"
@@ -278,9 +277,9 @@ def with_arguments(known: Values, values: dict[str, Any], *, for_good: bool) -> 
     if places := [name for name in known.graph.graph["choices"] if name in values]:
         known = Values(known.graph.copy())
         for name in places:
-            with collecting(faults, PathError):
+            with PathError.collecting(faults):
                 put_in_place(known.graph, name, values.pop(name))
-    with collecting(faults, ParameterError):
+    with ParameterError.collecting(faults):
         known = bind(known, values, for_good=for_good)
     ParameterError.raise_for(faults)
     return known

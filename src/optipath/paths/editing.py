@@ -24,7 +24,6 @@ from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import OptipathError, PathError
 from optipath.faults import did_you_mean, listed, shown, there_are
 from optipath.materials.quantities import ANGLE
-from optipath.raising import collecting
 from optipath.values.arrays import changed, joint_shape, read_only, same
 from optipath.values.parameters import Parameter
 from optipath.values.use import stored_value
@@ -61,7 +60,7 @@ def join(
     ends = []
     if first and second:
         for argument, graph, out in ((leaves, first, True), (None, second, False)):
-            with collecting(faults, PathError):
+            with PathError.collecting(faults):
                 ends.append(argument or _open_port(graph, out=out))
     names = _names(first, second)
     shared = [("node", name) for name in names.values() if name in first]
@@ -344,7 +343,7 @@ def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]
     """Return the link between two ports, or raise with these faults and those of the ports."""
     ends = []
     for text, out in ((leaves, True), (enters, False)):
-        with collecting(faults, PathError):
+        with PathError.collecting(faults):
             ends.append(find_port(graph, text, out=out))
     PathError.raise_for(faults)
     (start, out_port), (end, in_port) = ends

@@ -12,7 +12,7 @@ from optipath.elements.element import Chainable
 from optipath.paths import editing
 from optipath.paths.binding import with_arguments
 from optipath.paths.drawing import with_texts
-from optipath.raising import check_named
+from optipath.values.parameters import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -15,14 +15,15 @@ from optipath.composer.wiring import KEEPABLE
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
 from optipath.errors import ComposerError, ParameterError, PathError
+from optipath.extras import needing
 from optipath.faults import Fault, shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
 from optipath.paths.graph_face import GraphFace, wiring_at_defaults
 from optipath.paths.reversed import reversed_graph
-from optipath.raising import check_named, needing
 from optipath.values.arrays import same
+from optipath.values.parameters import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -795,9 +796,7 @@ class Node(Chainable):
     name: str
     port: str = ""
 
-    def __rshift__(  # type: ignore[override] # a node is of a path that is there
-        self, behind: Node | Element | NamedElement | PathGraph
-    ) -> Node:
+    def __rshift__(self, behind: Chainable) -> Node:  # type: ignore[override] # it has a path
         if not isinstance(behind, Node):
             return Node(self.path, self.path._append(self._text, begun(behind)))
         if behind.path is not self.path:

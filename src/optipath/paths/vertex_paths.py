@@ -18,7 +18,6 @@ from optipath.paths.chains import (
     path_of_chains,
     refuse_doubtful,
 )
-from optipath.raising import told_as
 from optipath.values.arrays import as_argument, entries_of
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
@@ -119,7 +118,7 @@ def path_from_vertices(
     [0.00147456 0.04      ]
     """
     PathError.raise_for(unknown("bad", bad, BAD))
-    with told_as(PathError):
+    with PathError.wrapping():
         start = stored_value("outside", outside, OUTSIDE)
         ValueFault.raise_for(faults_of(Use(*part) for part in OUTSIDE.parts("outside", start)))
         media = entries_of("materials", "one for each vertex", materials)

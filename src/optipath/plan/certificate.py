@@ -12,7 +12,6 @@ from optipath.errors import ParameterError, ValueFault
 from optipath.kernels.carriers.intensities import Boosts, boosted, largest_error, ratio_bounds
 from optipath.kernels.primitives import NUMPY
 from optipath.light.polarization_state import underflows
-from optipath.raising import collecting
 from optipath.values.arrays import check_broadcast, entries_of, same_fields
 from optipath.values.domains import Domain
 
@@ -100,7 +99,7 @@ def intensity_bounds(
     numbers: dict[str, npt.NDArray[Any]] = {}
     faults: list[str] = []
     for name, (value, domain) in arguments.items():
-        with collecting(faults, ValueFault):
+        with ValueFault.collecting(faults):
             numbers[name] = domain.check(name, value)
     if faults:
         raise ParameterError(*faults)

@@ -14,8 +14,8 @@ from optipath.light.light import Light
 from optipath.light.mueller import Mueller
 from optipath.plan.answers import Answers, LaterWavelength, by_place, only
 from optipath.plan.noise import matrix_noise_at, noise_at
-from optipath.raising import check_named
 from optipath.values.arrays import MOST_PATHS
+from optipath.values.parameters import check_named
 from optipath.values.precision import whole_number
 
 if TYPE_CHECKING:

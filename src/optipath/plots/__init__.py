@@ -1,7 +1,7 @@
 """Pictures, drawn with Matplotlib into axes that are given or made; nothing is shown by itself."""
 
+from optipath.extras import need
 from optipath.public_names import public_names
-from optipath.raising import need
 
 
 def check_matplotlib() -> None:

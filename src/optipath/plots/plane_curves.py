@@ -14,7 +14,6 @@ from optipath.light.quantities import QUANTITIES as OF_LIGHT
 from optipath.plots.axes import own_axes, positive
 from optipath.plots.colors import DASHES, LINES
 from optipath.plots.hemisphere_side import SeenSide, quantity_of
-from optipath.raising import told_as
 from optipath.surfaces.facet_model import frame_along
 from optipath.surfaces.hemisphere.hemisphere import ROUNDED
 from optipath.surfaces.walk.beam import UNPOLARISED
@@ -128,7 +127,7 @@ def _sides(
     most, results = max(map(choices, several.values())), {}
     for name, each in several.items():
         own = wavelength if choices(each) == most else None
-        with told_as(SurfaceError, str(name)):
+        with SurfaceError.wrapping(str(name)):
             results[str(name)] = SeenSide.of(each, side, own, source)
     return results
 

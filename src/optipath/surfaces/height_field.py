@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import SurfaceError
+from optipath.extras import needing
 from optipath.faults import did_you_mean
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
-from optipath.raising import needing
 from optipath.surfaces.random_field import LARGEST, Pair, pair_of, random_field
 from optipath.values.arrays import Unchanging, as_argument, same_fields
 from optipath.values.files import bytes_of, input_file

@@ -15,7 +15,6 @@ from optipath.composer.composer import Composer
 from optipath.errors import OptipathError, ParameterError
 from optipath.faults import closest, did_you_mean, listed, no_value, shown
 from optipath.paths.path_graph import PathGraph
-from optipath.raising import collecting, told_as
 from optipath.sweeps.datasets import DETECTOR, is_variable
 from optipath.sweeps.grid import SweepAxis, SweepGrid, sweep_axis
 from optipath.values.angles import CosSin
@@ -90,7 +89,7 @@ def grid_of(
     ranges = ranges or bool(faults) or is_short
     faults += _axis_faults(inputs, grid, ranges=ranges)
     if not faults and ranges and inputs.computed:
-        with collecting(faults):
+        with OptipathError.collecting(faults):
             # Along the dimensions of what it follows from, and nothing is laid out.
             replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
     ParameterError.raise_for(faults)
@@ -111,7 +110,7 @@ def _read(inputs: Inputs, several: Given, faults: list[str]) -> dict[str, AxisVa
     results = {}
     for name, (value, _) in several.items():
         if name in inputs.open or name in idle:
-            with collecting(faults):
+            with OptipathError.collecting(faults):
                 if isinstance(value, AxisValues):
                     results[name] = value
                 elif isinstance(value, TextColumn):
@@ -236,7 +235,7 @@ def _axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> lis
     arguments = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
     for name, value in arguments.items():
         uses = tuple([use for use in inputs.uses if use.value.name == name])
-        with collecting(faults):
+        with OptipathError.collecting(faults):
             if any(use.domain.takes_any for use in uses):
                 inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
             if ranges:
@@ -305,7 +304,7 @@ def _coords_axes(inputs: Inputs, coords: Any, faults: list[str]) -> Given:
         return {}
     if isinstance(coords, Mapping) and not _is_labelled(coords, "Dataset", "Coordinates"):
         return {str(name): (value, "") for name, value in coords.items()}
-    with collecting(faults), told_as(ParameterError):
+    with OptipathError.collecting(faults), ParameterError.wrapping():
         if isinstance(coords, (str, PathLike)):
             return _of_file(inputs, coords, faults)
         if _is_labelled(coords, "Dataset", "Coordinates"):
@@ -430,7 +429,7 @@ def _read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
     except OptipathError as fault:
         message: list[str] = []
         for line, text in zip(column.lines, column.texts, strict=True):
-            with collecting(message, about=f"line {line}"):
+            with OptipathError.collecting(message, about=f"line {line}"):
                 read([text])
         message = message or [*fault.faults]
     raise ParameterError(*[f"{column.file}: {sentence}" for sentence in message])

@@ -14,9 +14,9 @@ import numpy as np
 
 from optipath.engines.choice import is_installed
 from optipath.errors import ParameterError
+from optipath.extras import need
 from optipath.faults import shown
 from optipath.plan.explanation import operations
-from optipath.raising import need
 from optipath.sweeps.light_figures import STOKES, difference, figures_of, gradients_of, rounding_of
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEEPABLE
 from optipath.errors import ParameterError
 from optipath.faults import shown
-from optipath.raising import check_named
 from optipath.sweeps.axes import grid_of
 from optipath.sweeps.memory import swept_in_memory
+from optipath.values.parameters import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence

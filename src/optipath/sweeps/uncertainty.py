@@ -14,7 +14,6 @@ from optipath.faults import shown, unknown
 from optipath.materials.material import Material
 from optipath.paths.path_graph import PathGraph
 from optipath.plan.answers import only
-from optipath.raising import check_named, collecting
 from optipath.sweeps.axes import unknown_names
 from optipath.sweeps.first_order import changes_of, nonlinearity_of, slopes_of, spread_of
 from optipath.sweeps.light_figures import LightAt, UncertainValue
@@ -22,6 +21,7 @@ from optipath.sweeps.monte_carlo import samples_at_once, spread_of_samples
 from optipath.sweeps.propagation import Propagation, notes_of_first_order
 from optipath.values.arrays import array_of, broadcast_fault, enough_for, first_place, numbers_for
 from optipath.values.jax_values import check_known
+from optipath.values.parameters import check_named
 from optipath.values.precision import whole_number
 from optipath.values.units import dimension_of, format_quantity, parse_quantity
 from optipath.values.use import axes_for
@@ -41,7 +41,6 @@ _BYTES_OF_A_SAMPLE = 2600
 """What a path takes in each sample that runs at once; those of other blocks take nothing."""
 
 UncertaintyMethod: TypeAlias = Literal["auto", "gradients", "differences", "monte-carlo"]
-METHODS: tuple[UncertaintyMethod, ...] = get_args(UncertaintyMethod)
 _SAMPLES = 10_000
 _FEWEST, _MOST = 2, 10_000_000
 OPTIONS = frozenset(PathGraph.propagate.__kwdefaults__ or ())
@@ -74,7 +73,7 @@ def propagate(
     faults += _option_faults(method, samples, seed, composer)
     matrix = _correlation_of(correlation, names, faults)
     end, ends = "", tuple(plan.program.detectors)
-    with collecting(faults):
+    with OptipathError.collecting(faults):
         end = only("detector", ends, f"propagate(detector='{ends[0]}', ...)", detector)
     ParameterError.raise_for(faults)
     request = plan if composer is None else path.plan_by(composer)
@@ -109,7 +108,7 @@ def propagate(
 
 
 def _option_faults(method: str, samples: Any, seed: Any, composer: Any) -> list[str]:
-    result = unknown("method", method, METHODS)
+    result = unknown("method", method, get_args(UncertaintyMethod))
     drawn = [name for name, n in (("samples", samples), ("seed", seed)) if n is not None]
     if drawn and not result and method != "monte-carlo":
         result.append(
@@ -138,7 +137,7 @@ def _read_all(
     uncertain: list[UncertainValue] = []
     for name, value in known.items():
         if name not in exact:
-            with collecting(faults):
+            with OptipathError.collecting(faults):
                 uncertain.append(_read(inputs, name, value))
     if not any(isinstance(value, tuple) for value in arguments.values()):
         faults.append(

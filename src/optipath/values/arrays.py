@@ -16,7 +16,6 @@ import numpy as np
 
 from optipath.errors import OptipathError, ShapeError, ValueFault
 from optipath.faults import shown
-from optipath.raising import collecting, told_as
 from optipath.values.jax_values import is_jax, is_traced
 from optipath.values.precision import ENDLESS, Array, doubles, within
 
@@ -342,7 +341,7 @@ def numbers_for(
     faults: list[str] = []
     for place, entry in enumerate(entries):
         if isinstance(entry, str):
-            with collecting(faults, error):
+            with error.collecting(faults):
                 entries[place] = _number(what, entry, parse, error)
     error.raise_for(faults)
     if all(isinstance(entry, _NUMBER) and not isinstance(entry, bool) for entry in entries):
@@ -351,5 +350,5 @@ def numbers_for(
 
 
 def _number(what: str, text: str, parse: Callable[[str], T], error: type[OptipathError]) -> T:
-    with told_as(error, what):
+    with error.wrapping(what):
         return parse(text)

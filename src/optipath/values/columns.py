@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.errors import ParameterError, ValueFault
+from optipath.errors import OptipathError, ParameterError, ValueFault
 from optipath.faults import did_you_mean, listed, shown, there_are
-from optipath.raising import collecting
 from optipath.values.files import bytes_of, input_file
 from optipath.values.units import (
     UNITS,
@@ -157,7 +156,7 @@ def read_columns(
         second = f"line {table[0].header} begins a second table"
         if twice := sorted(results.keys() & here):
             faults.append(f"{second} of {listed(twice)}; keep one")
-        with collecting(faults):
+        with OptipathError.collecting(faults):
             grids.append(_wavelengths(table, unit))
             results |= {name: _numbers(table, name) for name in here}
             if not np.array_equal(grids[0], grids[-1]):
@@ -274,7 +273,7 @@ def _each(texts: Sequence[str], lines: Sequence[int], read: Callable[[str], floa
     results: list[float] = []
     faults: list[str] = []
     for line, text in zip(lines, texts, strict=True):
-        with collecting(faults, about=f"line {line}"):
+        with OptipathError.collecting(faults, about=f"line {line}"):
             results.append(read(text))
     ValueFault.raise_for(faults)
     return results

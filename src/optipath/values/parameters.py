@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -15,7 +16,6 @@ import numpy as np
 
 from optipath.errors import ParameterError, UnitError, ValueFault
 from optipath.faults import Fault, closest, did_you_mean, shown, there_are
-from optipath.raising import collecting
 from optipath.values.angles import TURN, CosSin, range_cure, refused, warn_of_degrees
 from optipath.values.arrays import (
     array_of,
@@ -41,7 +41,7 @@ from optipath.values.units import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterable, Mapping
+    from collections.abc import Callable, Hashable, Iterable, Sequence
 
     import numpy.typing as npt
 
@@ -179,7 +179,7 @@ class Parameter:
             if type(value) is float:
                 numbers.append(value)
                 continue
-            with collecting(faults, ParameterError):
+            with ParameterError.collecting(faults):
                 numbers.append(self._one_number(what, value))
         ParameterError.raise_for(faults)
         low, high, *words = numbers
@@ -665,3 +665,24 @@ class Resolved(NamedTuple):
 
     value: npt.NDArray[Any]
     present: npt.NDArray[np.bool_]
+
+
+def check_named(
+    call: str, unnamed: Sequence[object], names: Iterable[str], first: str = ""
+) -> None:
+    """Refuse values that are given without a name.
+
+    >>> check_named("run", [0.5], ["delta", "rho"])
+    Traceback (most recent call last):
+    optipath.errors.ParameterError: values are given by name: run(delta=0.5); there are: delta, rho
+    """
+    if not unnamed:
+        return
+    value, known = unnamed[0], list(names)
+    if not known:
+        raise ParameterError(f"{call}() takes no values here: no parameter is open")
+    written = (
+        f"**{shown(dict(value))}" if isinstance(value, Mapping) else f"{known[0]}={shown(value)}"
+    )
+    given = ", ".join(filter(None, (first, written)))
+    raise ParameterError(f"values are given by name: {call}({given}){there_are(known)}")

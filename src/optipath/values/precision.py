@@ -17,9 +17,7 @@ from optipath.faults import shown
 from optipath.values.jax_values import is_jax, is_traced
 
 Precision: TypeAlias = (
-    Literal["float64", "float32", "longdouble", "f8", "f4", "double", "single", "float"]
-    | type[float | np.floating[Any]]
-    | np.dtype[Any]
+    Literal["float64", "float32", "longdouble", "f8", "f4"] | type | np.dtype[Any]
 )
 DTYPES: tuple[Precision, ...] = ("float64", "float32", "longdouble")
 _BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import ParameterError, UnitError
+from optipath.errors import OptipathError, ParameterError, UnitError
 from optipath.faults import shown
-from optipath.raising import collecting, told_as
 from optipath.values.columns import column_for
 from optipath.values.parameters import ABSENT, AXES
 from optipath.values.units import (
@@ -71,7 +70,7 @@ def read_axis_text(
         return None
     if ":" in text and len(texts) > 1:
         parameter.parse(texts[0], unit)  # What is wrong with the first is wrong with all.
-    with told_as(ParameterError, column_file(text) or ""):
+    with ParameterError.wrapping(column_file(text) or ""):
         return read_entries(texts, parameter, unit, uses)
 
 
@@ -83,7 +82,7 @@ def read_entries(
     results: list[_Entry] = []
     faults: list[str] = []
     for entry in entries:
-        with collecting(faults):
+        with OptipathError.collecting(faults):
             results.append(_read(entry, parameter, unit, uses))
     ParameterError.raise_for(faults)
     arguments = [each.given for each in results]
@@ -138,9 +137,9 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     """
     text = text.strip()
     if (file := column_file(text)) is not None:
-        with told_as(ParameterError):
+        with ParameterError.wrapping():
             return column_for(parameter, file)
-    with told_as(ParameterError, parameter.called):
+    with ParameterError.wrapping(parameter.called):
         if "," not in text:
             return texts_of_range(text) if ":" in text and not _is_ratio(parameter, text) else None
         parts = _listed(text)

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, ValueFault
-from optipath.raising import collecting, having
 from optipath.values.angles import TURN, warn_of_degrees
 from optipath.values.arrays import as_argument
 from optipath.values.curve_value import CurveValue, check_computed, takes_0_alone
@@ -174,8 +173,11 @@ _is_checked_later: ContextVar[bool] = ContextVar("_is_checked_later", default=Fa
 @contextmanager
 def checked_later() -> Iterator[None]:
     """Leave the values of what is made inside to the check of the whole path, which names nodes."""
-    with having(_is_checked_later, value=True):
+    token = _is_checked_later.set(True)
+    try:
         yield
+    finally:
+        _is_checked_later.reset(token)
 
 
 def is_checked_later() -> bool:
@@ -246,7 +248,7 @@ def faults_of(uses: Iterable[Use]) -> list[str]:
     """Return what is wrong with the values that are known already, a sentence each."""
     results: list[str] = []
     for use in uses:
-        with collecting(results, ValueFault):
+        with ValueFault.collecting(results):
             use.check()
     return results
 

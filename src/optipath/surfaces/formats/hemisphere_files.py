@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 import numpy as np
 
 from optipath.errors import OptipathError, SurfaceError
+from optipath.extras import need, needing
 from optipath.faults import shown
-from optipath.raising import need, needing
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.hemisphere.beam import (
     NUMBERS,

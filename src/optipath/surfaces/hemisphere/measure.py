@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import SurfaceError
+from optipath.extras import need
 from optipath.faults import shown, unknown
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
-from optipath.raising import need
 from optipath.surfaces.energy_shares import processors
 from optipath.surfaces.hemisphere.beam import CHUNK, NUMBERS, STATES, PartSums, SensedBeam
 from optipath.surfaces.hemisphere.hemisphere import Hemisphere

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import SurfaceError
-from optipath.raising import need
+from optipath.extras import need
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
