@@ -155,7 +155,7 @@ def test_faint_light_goes_round_as_well():
     assert found.log10_intensity == pytest.approx(expected.log10_intensity - 288, abs=1e-9)
 
 
-def test_loops_jones_columns_and_certificates_are_refused_where_they_cannot_be():
+def test_loops_and_jones_columns_are_refused_where_they_cannot_be():
     path = slab(1.5, 0.5)
     assert op.PathGraph().loops == "refuse"
     with pytest.raises(op.errors.PathError, match="loops 'add' is unknown"):
@@ -164,11 +164,9 @@ def test_loops_jones_columns_and_certificates_are_refused_where_they_cannot_be()
         (lambda: op.Composer(loops="refuse").compose(path), r"back -> front -> back; .*='sum'"),
         (lambda: op.Composer(loops="add"), "loops 'add' is unknown"),
         (lambda: op.Composer(composing="jones").compose(path), r"'front\.transmitted'.*stokes"),
-        (lambda: path.compose().certificate("R"), "no certificates for light that goes round"),
     ):
         with pytest.raises(op.OptipathError, match=told):
             refused()
-    assert op.Composer(tolerance=0.01).compose(path.reading("intensity")).instead is None
 
 
 def test_a_gain_of_one_or_more_is_an_error_alone_and_among_many():

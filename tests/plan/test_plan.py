@@ -236,7 +236,8 @@ def test_live_components_and_operations_fewer_than_those_of_the_full_composition
 
 
 def test_a_certificate_stands_there_where_all_values_are_known_however_faint_light_is():
-    path = chain([op.Interface(1.5, 0.7), op.Interface(1.5, 0.7)], reads="intensity")
+    panes = op.Interface(1.5, 0.7), op.Interface(1.5, op.Parameter("a", 0.7))
+    path = chain(panes, reads="intensity")
     bounds = path.compose().explanation().certificate["bounds"]["eye"]
     A, B, _, _ = op.fresnel_reflection(1.5, np.cos(0.7), np.sin(0.7))
     assert bounds["upper"] == pytest.approx(1 + (B / A) ** 2)
@@ -244,15 +245,29 @@ def test_a_certificate_stands_there_where_all_values_are_known_however_faint_lig
     opened = chain([op.Interface(1.5, op.Parameter("a"))]).compose().explain()
     assert "certificate: depends on a" in opened
     for intensity in (0.0, 1e-300):
-        path = op.Source(intensity) >> op.Attenuator(1e-100) >> op.Detector()
+        lamp, dim = op.Source(op.Parameter("i", intensity)), op.Attenuator(1e-100)
+        path = lamp >> dim >> op.Interface(1.5, 0.3) >> op.Detector()
         found = path.compose().explanation()
         (bounds,) = found.certificate["bounds"].values()
         assert bounds["upper"] == pytest.approx(1.0)
         json.dumps(found.as_dict(), allow_nan=False)
-    path = chain([op.MuellerElement(np.diag([1.0, 3.0, 1.0, 1.0]), physical=False)])
+    element = op.MuellerElement(np.diag([1.0, 3.0, 1.0, 1.0]), physical=False)
+    path = chain([element], [1.0, 0.1, 0.0, 0.0])
     found = path.compose().explanation()
     assert "none, since the Mueller matrix of 'e0' is unphysical" in str(found)
     json.dumps(found.as_dict(), allow_nan=False)
+
+
+@rows("angle", [0.7, op.Parameter("a", 0.7)])
+def test_a_model_that_is_exact_by_itself_stands_beside_no_certificate(angle):
+    panes = [op.Interface(1.5, angle), op.Interface(1.5, 0.7, azimuth=1.5)]
+    plan = op.Composer(tolerance=0.1).compose(chain(panes, reads="intensity"))
+    text, is_constant = plan.explain(), angle == 0.7
+    assert ("model scalar is exact" in text) is is_constant
+    assert ("S0 is 0." in text) is not is_constant
+    assert ("certificate: not needed, since model scalar is exact" in text) is is_constant
+    # What was multiplied is more than the scalar model, which the certificate is of.
+    assert plan.certificate().lower < 0.7
 
 
 # Light that goes round, or through a stack, has no one Jones vector; a medium that does several
@@ -296,7 +311,7 @@ def test_plans_of_traced_constants_are_explained_and_have_matrices():
 
     def entry(retardance):
         elements = [op.Attenuator(0.5), op.Retarder(retardance)]
-        plan = op.Composer(dtype="float32").compose(chain(elements, reads="intensity"))
+        plan = op.Composer(dtype="float32").compose(chain(elements, [1.0, 0.5, 0.0, 0.0]))
         assert "values that JAX traces" in plan.explain()
         return plan.mueller().matrix[0, 0]
 

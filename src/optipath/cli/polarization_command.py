@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 _PATHS = 5
 
-_NO_BOUNDS = "as light goes round in a loop, there are no bounds of what it could change"
-
 _SMALL = 1e-12
 """Which share of the intensity is no more than rounding."""
 
@@ -59,8 +57,7 @@ def _as_json(results: Mapping[str, Polarization]) -> dict[str, Any]:
 
 def _one_as_json(result: Polarization) -> dict[str, Any]:
     numbers = {name: plain(getattr(result, name)) for name in ("exact", "scalar", "difference")}
-    known = result.certificate
-    bounds = {name: known and plain(getattr(known, name)) for name in ("lower", "upper")}
+    bounds = {name: plain(getattr(result.certificate, name)) for name in ("lower", "upper")}
     elements = {name: plain(share) for name, share in result.elements.items()}
     return {**numbers, **bounds, "elements": elements, "culprits": list(result.culprits)}
 
@@ -69,9 +66,8 @@ def _table(name: str, result: Polarization, digits: int) -> Table:
     """Return the numbers of each path, a column each."""
     indices = list(np.ndindex(result.exact.shape))
     shown = indices[:_PATHS]
-    shares = {"difference": result.difference}
-    if (known := result.certificate) is not None:
-        shares |= {"at least": known.lower - 1.0, "at most": known.upper - 1.0}
+    bounds = {"at least": result.certificate.lower - 1.0, "at most": result.certificate.upper - 1.0}
+    shares = {"difference": result.difference, **bounds}
     for element, share in result.elements.items():
         if np.any(np.abs(share) > _SMALL):
             shares[f"by {element}"] = share
@@ -90,12 +86,9 @@ def _verdict(result: Polarization) -> str:
     largest = float(np.max(np.abs(result.difference), initial=0.0))
     text = f"polarisation changes S0 by up to {100.0 * largest:.3g} %"
     if largest >= _SMALL:
-        by = f"{text}, most of it by {listed(result.culprits)}"
-        return by if result.certificate is not None else f"{by}; {_NO_BOUNDS}"
+        return f"{text}, most of it by {listed(result.culprits)}"
     if not result.elements:
         return "polarisation changes nothing"
-    if result.certificate is None:
-        return f"{text} here; {_NO_BOUNDS}"
     lower, upper = np.min(result.certificate.lower) - 1.0, np.max(result.certificate.upper) - 1.0
     if upper - lower < _SMALL:
         return "polarisation changes nothing"

@@ -300,9 +300,8 @@ def by_name(exact: Reduction, model: str) -> Reduction:
     most = MODELS.index(model)
     for light, alive in enumerate(exact.live):
         if alive[-1] > most:
-            cure = f"use model '{exact.model}' or 'auto'"
-            if not exact.program.loops:
-                cure += ", or give a tolerance, and let all read 'intensity'"
+            cure = f"use model '{exact.model}' or 'auto', or give a tolerance, and let all read "
+            cure += "'intensity'"
             where = f"S{alive[-1]} is alive at '{exact.program.steps[light].label}'"
             raise ComposerError(f"model '{model}' is not exact for this path: {where}; {cure}")
     return replace(exact.by(model), reason=f"asked for by name; {exact.reason}")
@@ -312,7 +311,7 @@ def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
     """Return which model is taken where a certificate allows it; None where there is none."""
     wanted = "scalar" if model == "auto" else model
     read_more = any(end.components > 1 for end in exact.program.readings.values())
-    if read_more or exact.program.loops or MODELS.index(wanted) >= MODELS.index(exact.model):
+    if read_more or MODELS.index(wanted) >= MODELS.index(exact.model):
         return None
     return Tolerance(wanted, most)
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from optipath.kernels.carriers.carried import Carried, Components, Parts
     from optipath.kernels.carriers.carrier import Carrier
-    from optipath.kernels.carriers.structures import Numbers
+    from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.kernels.kernel import Kernel
     from optipath.kernels.primitives import Primitives
     from optipath.values.operands import Operand
@@ -239,21 +239,52 @@ class LoopSolver:
         ]
         self._junctions = frozenset(loop.junctions)
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
-        self.columns = [self._column(*unknown) for unknown in self.unknowns]
-        self.leaves = [self._resolved(column.leaves) for column in self.columns]
-        self._system = Elimination(
+        self.found: list[Any] = []
+
+    @cached_property
+    def columns(self) -> list[Column]:
+        """What becomes of a unit of each unknown."""
+        return [self._column(*unknown) for unknown in self.unknowns]
+
+    @cached_property
+    def leaves(self) -> list[Any]:
+        """What of each unknown leaves the loop."""
+        return [self._resolved(column.leaves) for column in self.columns]
+
+    @cached_property
+    def _system(self) -> Elimination:
+        return Elimination(
             self.xp,
             [self.scattered(column.back) for column in self.columns],
             self.leaves,
             [part < 2 for _, part in self.unknowns],
             None if self.rounded is None else reduce(and_, self.fading(), True),  # noqa: FBT003
         )
-        self.pivots = self._system.pivots
-        self.found: list[Any] = []
+
+    @property
+    def pivots(self) -> list[Any]:
+        """What of each unknown does not come back, once those before it are eliminated."""
+        return self._system.pivots
 
     def count(self, junction: int) -> int:
         """Return by how many components the light at a junction is carried."""
         return self.program.count(junction)
+
+    def ways(self) -> Iterator[tuple[int, int, list[tuple[Structure, Numbers]]]]:
+        """Yield each way from a junction to the next, and what light passes on it."""
+        for junction in self.loop.junctions:
+            waiting: list[tuple[int, list[tuple[Structure, Numbers]]]] = [(junction, [])]
+            while waiting:
+                light, passed = waiting.pop()
+                for user in self.program.used_by[light]:
+                    index, after = self.program.steps[user].evaluation, passed
+                    if index is not None:
+                        structure: Any = self.program.evaluations[index].kernel.structure
+                        after = [*passed, (structure, self.numbers(index))]
+                    if user in self._junctions:
+                        yield junction, user, after
+                    elif self.loop.start <= user < self.loop.stop:
+                        waiting.append((user, after))
 
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
         """Return the parts of the light at each junction, for those of what arrives at some."""

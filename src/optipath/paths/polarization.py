@@ -41,10 +41,10 @@ class Polarization:
     scalar : ndarray, shape (...)
         The intensity of the scalar model, in which each element, and each boundary of a stack,
         dims light by its mean; light that goes round is the sum over all rounds of it.
-    certificate : Certificate or None
+    certificate : Certificate
         The scalar intensity, and bounds of what polarisation can make of it. They tell a stack
         by what it does as a whole, and the other elements by their diattenuations, however these
-        stand to each other. None where light goes round in a loop: no bounds are known there.
+        stand to each other; in a loop, of all rounds together.
     elements : mapping of str to ndarray, shape (...)
         For each element that polarises, the intensity that is there because it does, over that
         of the scalar model; negative where light is missing for it. Elements act together,
@@ -53,7 +53,7 @@ class Polarization:
 
     exact: npt.NDArray[Any]
     scalar: npt.NDArray[Any]
-    certificate: Certificate | None
+    certificate: Certificate
     elements: Mapping[str, npt.NDArray[Any]]
 
     __eq__ = same_fields
@@ -93,8 +93,7 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     Raises
     ------
     PathError, ParameterError
-        As `Composer.compose` and `Plan.run`; and as `Plan.certificate`, where light goes round
-        in no loop.
+        As `Composer.compose`, `Plan.run` and `Plan.certificate`.
 
     Examples
     --------
@@ -129,17 +128,15 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     return Polarization(exact, scalar, certificate, shares)
 
 
-def _scalar(plan: Plan, end: str, parameters: Mapping[str, Any]) -> tuple[Any, Certificate | None]:
-    """Return the intensity of the scalar model, and bounds of the exact one where there are any."""
+def _scalar(plan: Plan, end: str, parameters: Mapping[str, Any]) -> tuple[Any, Certificate]:
+    """Return the intensity of the scalar model, and bounds of the exact one."""
     whole = plan.whole
     stacks = any(evaluation.kernel.unpolarising for evaluation in whole.evaluations)
-    result = None if whole.loops else plan.certificate(end, **parameters)
-    if result is not None and not stacks:
+    result = plan.certificate(end, **parameters)
+    if not stacks and not whole.loops:
         return result.scalar, result
     grey = without_polarization(whole, chain.from_iterable(polarising(whole).values()))
     scalar = _intensity(plan, grey, end, parameters)
-    if result is None:
-        return scalar, None
     # The certificate is of stacks that dim light by what is exact for unpolarised light.
     lit = scalar > 0.0
     share = np.where(lit, result.scalar, 1.0) / np.where(lit, scalar, 1.0)

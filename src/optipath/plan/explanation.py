@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.choice import LARGE
+from optipath.engines.program import MODELS
 from optipath.errors import ParameterError
 from optipath.faults import listed
 from optipath.kernels.carriers.carrier import StokesCarrier
@@ -236,12 +237,12 @@ def _tolerated(plan: Any) -> dict[str, Any] | None:
 
 def _certified(plan: Any) -> dict[str, Any] | None:
     """Return the bounds for the values that are known, and defaults for others."""
+    if plan.reduction.model == MODELS[0]:
+        return {"text": f"not needed, since model {MODELS[0]} is exact"}
     opened = plan.inputs.open.values()
     missing = [parameter.name for parameter in opened if parameter.default is None]
     if missing:
         return {"text": f"depends on {_first_few(missing)}; give values"}
-    if plan.whole.loops:
-        return {"text": "none, since light goes round"}
     if plan.answers.whole.for_jax.has_traced:
         return {"text": "depends on values that JAX traces"}
     try:

@@ -157,7 +157,8 @@ class Interpreter:
             )
         lacking = what_matrices_lack(self.program, matrices)
         carrier = BoundsCarrier(NUMPY, slack_of(self.program, self.dtype.name) + lacking)
-        result = self._execute(arguments, carrier, shared=matrices)
+        with np.errstate(all="ignore"):
+            result = execute(self.program, operands, carrier, None, self.number, matrices)
         read = []
         for reading in self.program.readings.values():
             rows = [np.broadcast_to(row, arguments.shape) for row in result[reading.light][0]]
@@ -167,6 +168,8 @@ class Interpreter:
             parts[1] = np.where(message, parts[1], 0.0)
             parts[2] = np.where(message, parts[2], np.inf)
             read.append(parts.reshape(4, *batch))
+        if self.program.loops and np.any(np.isnan([parts[0] for parts in read])):
+            self.lights(arguments)  # Light that does not fade is refused.
         return read
 
     def _read(self, arguments: Batch, lights: Mapping[int, Any]) -> list[Array]:

@@ -310,8 +310,8 @@ class Plan:
         Raises
         ------
         ParameterError
-            As in `run`, or if a detector is not named or not known, if light goes round, or
-            if a Mueller matrix is unphysical.
+            As in `run`, or if a detector is not named or not known, or if a Mueller matrix is
+            unphysical.
 
         Examples
         --------

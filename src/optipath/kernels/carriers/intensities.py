@@ -12,15 +12,17 @@ from __future__ import annotations
 
 import math
 from functools import reduce
+from operator import mul
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.structures import Intensities, along_x_and_y, in_all
+from optipath.kernels.linear_solve import Elimination, is_zero
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-    from optipath.kernels.carriers.carried import Components
+    from optipath.kernels.carriers.carried import Components, SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.kernels.primitives import Primitives
 
@@ -111,6 +113,32 @@ class Bounded(NamedTuple):
     excess: Any = 0.0
 
 
+_PARTS = range(6)
+"""Of light in a loop: the intensity of no polarization, the most of I and of q, the least of I, of
+I - q and of m."""
+
+
+def _passed(light: Sequence[Any], shares: Sequence[Any]) -> tuple[Any, ...]:
+    """Return the parts of light behind an element."""
+    total, upper, q, lower, unpolarized, length = light
+    mean, t, p, stored, left, is_pure = shares
+    behind = (
+        (mean, total),
+        (mean, _added((1.0, upper), (t, q))),
+        (mean, _added((p, upper), (stored, q))),
+        (mean, _added((1.0 - t, lower), (t, unpolarized))),
+        (mean * (1.0 - p), unpolarized),
+        (mean * left, length if is_pure else unpolarized),
+    )
+    return tuple(map(_added, behind))
+
+
+def _added(*pairs: tuple[Any, Any]) -> Any:
+    """Return the sum of products, a plain 0 where each has a plain 0 for a factor."""
+    terms = [a * b for a, b in pairs if not (is_zero(a) or is_zero(b))]
+    return sum(terms[1:], start=terms[0]) if terms else 0.0
+
+
 class BoundsCarrier(Carrier):
     """Carries unpolarized intensities, with bounds of what polarization does, of physical matrices.
 
@@ -160,6 +188,80 @@ class BoundsCarrier(Carrier):
         lower, upper = (xp.where(total > 0.0, part / lit, 1.0) for part in (lower, upper))
         excess = xp.maximum(first.excess, second.excess)
         return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)), excess)
+
+    def meet(self, solver: SolvedLoop, arriving: Mapping[int, Bounded]) -> dict[int, Bounded]:
+        """Return bounded lights at the junctions of a loop, each the sum over all ways to it.
+
+        With I = S0 and q = |(S1, S2, S3)|, an element of mean A, diattenuation t and polarizance p
+        lets out I' <= A (I + t q), q' <= A (p I + q); and, since light is I - q of unpolarized
+        light and q of polarized, I' >= A ((1 - t) I + t (I - q)), I' - q' >= A (1 - p) (I - q) and
+        m' >= A sqrt(1 - p^2) m, m^2 = I^2 - q^2, if it does not depolarize; else of I - q in place
+        of m. Sums of lights obey all of them (the triangle inequality, reversed for m in
+        Minkowski's space), so that the bounds of all ways together solve linear systems of gains
+        >= 0, which are finite where no pivot is <= 0 (M-matrices: Berman & Plemmons, Nonnegative
+        Matrices in the Mathematical Sciences, ch. 6).
+        """
+        xp, places = self.xp, dict[int, int]()
+        back: list[dict[int, Any]] = []
+        for start, end, elements in solver.ways():
+            for junction in (start, end):
+                if junction not in places:
+                    places[junction] = len(back)
+                    back += [{} for _ in _PARTS]
+            passed = [self._shares(*each) for each in elements]
+            for part in _PARTS:
+                unit: Sequence[Any] = [float(part == other) for other in _PARTS]
+                gains = reduce(_passed, passed, unit)
+                column = back[places[start] + part]
+                for to, gain in enumerate(gains, places[end]):
+                    column[to] = column[to] + gain if to in column else gain
+        dark = [0.0] * len(back)
+        system = Elimination(xp, back, dark, [False] * len(back))
+        given, excess = list[Any](dark), 0.0
+        for junction, light in arriving.items():
+            place, excess = places[junction], xp.maximum(excess, light.excess)
+            given[place : place + len(_PARTS)] = self._begun(light)
+        found = system.solved(given)
+        parts = [*enumerate(system.pivots)]
+        most = [pivot for place, pivot in parts if place % len(_PARTS) in (1, 2)]
+        least = [pivot for place, pivot in parts if place % len(_PARTS) not in (1, 2)]
+        fades, bounded = (reduce(xp.minimum, pivots) > 0.0 for pivots in (least, most))
+        # Each division by what hardly comes back enlarges roundings.
+        sizes = [xp.where(bounded, pivot, 1.0) for pivot in most]
+        excess = excess + self.slack / reduce(mul, [*least, *sizes])
+        results = {}
+        for junction, place in places.items():
+            total, upper, _, lower, unpolarized, length = found[place : place + len(_PARTS)]
+            total = xp.where(fades, total, math.nan)
+            unit, above = xp.where(total > 0.0, total, 1.0), xp.where(upper > 0.0, upper, 1.0)
+            dop = xp.where(bounded, xp.maximum(1.0 - unpolarized / above, 0.0), 1.0)
+            results[junction] = Bounded(
+                total,
+                xp.where(total > 0.0, xp.maximum(lower, length) / unit, 1.0),
+                xp.where(total > 0.0, xp.where(bounded, upper / unit, math.inf), 1.0),
+                Boosts(xp.where(total > 0.0, dop, 0.0)),
+                excess,
+            )
+        return results
+
+    def _begun(self, light: Bounded) -> tuple[Any, ...]:
+        """Return the parts of light that comes to a loop."""
+        total, lower, upper, boosts, _ = light
+        least, most = ratio_bounds(self.xp, boosts)
+        more, less = (1.0 + boosts.most) * boosts.more, (1.0 - boosts.most) * boosts.less
+        low, high = total * lower, total * upper
+        length = low * self.xp.sqrt(more * less)
+        return total, high * most, 0.5 * high * (more - less), low * least, low * less, length
+
+    def _shares(self, structure: Structure, numbers: Numbers) -> tuple[Any, ...]:
+        """Return mean, diattenuation, polarizance, stored polarization, and what is left of m."""
+        (mean, *first), *rows = structure.rows(self.xp, numbers)
+        t = self._share(first, mean)
+        if structure.jones is not None:
+            return mean, t, t, 1.0, self.xp.sqrt((1.0 - t) * (1.0 + t)), True
+        p = self._share([row[0] for row in rows], mean)
+        stored = self._share([entry for row in rows for entry in row[1:]], mean)
+        return mean, t, p, stored, self.xp.sqrt((1.0 - p) * (1.0 + p)), False
 
     def read(self, state: Bounded, _: int = 1) -> tuple[Components, Any]:
         least, most = ratio_bounds(self.xp, state.boosts)
