@@ -19,7 +19,6 @@ from optipath.kernels.primitives import not_below_rounding, products, vanishes
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from optipath.kernels.carriers.structures import Structure
     from optipath.kernels.primitives import Primitives
 
 
@@ -110,7 +109,7 @@ class SolvedLoop(Protocol):
     def count(self, junction: int) -> int:
         """Return by how many components the light at a junction is carried."""
 
-    def ways(self) -> Iterable[tuple[int, int, Sequence[tuple[Structure, Any]]]]:
+    def ways(self) -> Iterable[tuple[int, int, Sequence[tuple[Any, Any]]]]:
         """Return each way from a junction to the next, and what light passes on it."""
 
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
