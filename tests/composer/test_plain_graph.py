@@ -161,6 +161,28 @@ def test_every_preset_comes_back_from_networkx():
         assert op.PathGraph.from_networkx(path.to_networkx()) == path, name
 
 
+def test_a_graph_and_the_path_made_of_it_change_apart():
+    path = op.load_preset("npgr026", case=7)
+    path.replace("P", op.Polarizer())
+    path.add("spare", op.Rotator(0.1), frames={"in": op.Frame()})
+    graph = path.to_networkx()
+    other = op.PathGraph.from_networkx(graph)
+    graph.nodes["spare"]["frames"]["out"] = op.Frame().turned(0.3)
+    graph.nodes["P"]["element"] = op.Mirror()
+    graph.graph["choices"].clear()
+    graph.graph["cases"].clear()
+    graph.edges["L", "P", 0]["azimuth"] = 0.3
+    assert path == other
+    assert path.choices
+    assert path.cases
+
+
+def test_a_choice_that_does_not_fit_is_named():
+    graph = nx.relabel_nodes(op.load_preset("npgr026").to_networkx(), {"L": "lamp"})
+    with pytest.raises(op.errors.PathError, match="choice 'place': place 'light': node 'L'"):
+        op.PathGraph.from_networkx(graph)
+
+
 def test_lengths_of_links_are_kept_in_metres_and_change_no_light():
     graph = malus()
     in_edge(length="5 mm", azimuth="30 deg", tap=False)(graph)

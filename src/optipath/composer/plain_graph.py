@@ -61,7 +61,9 @@ def completed(graph: Any) -> nx.MultiDiGraph:
     for name, about in graph.nodes.items():
         if len(about) > 1 or not _is_name(name) or not isinstance(about.get("element"), Element):
             faults += _node_faults(name, about)
-    result.add_nodes_from((name, _node(about)) for name, about in graph.nodes.items())
+        given = about.get("frames")
+        frames = dict(given) if isinstance(given, Mapping) else {}
+        result.add_nodes_from([(name, {**about, "frames": frames})])
     _add_links(graph, result, faults)
     PathError.raise_for(faults)
     return result
@@ -74,7 +76,7 @@ def plain(graph: nx.MultiDiGraph, **others: Any) -> nx.MultiDiGraph:
     """
     result = nx.MultiDiGraph()
     about = {**graph.graph, **others}
-    unsaid = [name for name, usual in _WHOLE.items() if about[name] == usual]
+    unsaid = {name for name, usual in _WHOLE.items() if about[name] == usual}
     result.graph.update({name: one for name, one in about.items() if name not in unsaid})
     # By dicts, since the attributes of others have any names.
     result.add_nodes_from((name, _said(node, _NODE)) for name, node in graph.nodes.items())
@@ -95,9 +97,8 @@ def whole(about: Mapping[Any, Any], faults: list[str]) -> dict[str, Any]:
     if not isinstance(cases, Mapping) or [c for c in cases.values() if not isinstance(c, Case)]:
         faults.append(f"cases of a path must be a Case for each name, not {shown(cases)}")
     # What a choice is, is known above.
-    if not isinstance(choices, Mapping) or [
-        c for c in choices.values() if not hasattr(c, "behind")
-    ]:
+    offers = choices.values() if isinstance(choices, Mapping) else [choices]
+    if not all(hasattr(one, "behind") for one in offers):
         faults.append(f"choices of a path must be as path.offer makes them, not {shown(choices)}")
     faults += unknown("loops", result["loops"], LOOPS)
     with PathError.collecting(faults):
@@ -136,12 +137,12 @@ def _is_unset(value: Any) -> bool:
 
 
 def _said(about: Mapping[Any, Any], known: Collection[str]) -> dict[Any, Any]:
-    return {key: one for key, one in about.items() if key not in known or not _is_unset(one)}
-
-
-def _node(about: Mapping[Any, Any]) -> dict[Any, Any]:
-    frames = about.get("frames")
-    return {**about, "frames": dict(frames) if isinstance(frames, Mapping) else {}}
+    """Return attributes without those of known names that say nothing."""
+    return {
+        name: dict(one) if type(one) is dict else one
+        for name, one in about.items()
+        if name not in known or not _is_unset(one)
+    }
 
 
 def _node_faults(name: Any, about: Mapping[Any, Any]) -> Iterator[str]:

@@ -87,10 +87,11 @@ class PortFrames:
         """Return by what angle in radians light is turned on a link."""
         start, end, (leaves, enters) = link
         ports = (start, leaves), (end, enters)
-        first, second = (frame_at(self.wiring, *port) for port in ports)
-        if {start, end} <= self.wiring.self_placed:
+        in_space = any(frame_at(self.wiring, *port) is not None for port in ports)
+        first = second = None
+        if in_space or {start, end} <= self.wiring.self_placed:
             first, second = map(self.placed, ports)
-        if first is None or second is None:
+        if first is None or second is None or first is second:
             return _number(operand_of(azimuth_of(self.wiring, link)))
         along = np.sum(first.x * second.x, axis=-1)
         return np.asarray(np.arctan2(np.sum(first.y * second.x, axis=-1), along))

@@ -78,7 +78,8 @@ class GraphFace(Chainable):
         >>> graph.edges["source", "polarizer", 0]
         {'out_port': 'out', 'in_port': 'in'}
         """
-        graph = plain(self._graph, description=self.description, cases=dict(self.cases))
+        own = {"cases": dict(self.cases), "choices": self.choices}
+        graph = plain(self._graph, description=self.description, **own)
         return with_texts(graph) if text else graph
 
     def frames(self, /, *unnamed: Never, **parameters: Any) -> PathFrames:

@@ -128,12 +128,12 @@ class PathGraph(GraphFace):
         """
         own = completed(graph)
         path = cls(own.graph.pop("description"), own.graph.pop("cases"))
-        path._graph = own
-        for name, choice in path.choices.items():
-            wrong = [
-                Fault.of(fault).under(f"choice '{name}'") for fault in choice_faults(own, choice)
-            ]
-            PathError.raise_for(wrong)
+        path._graph, own.graph["choices"] = own, dict(own.graph["choices"])
+        PathError.raise_for(
+            Fault.of(fault).under(f"choice '{name}'")
+            for name, choice in path.choices.items()
+            for fault in choice_faults(own, choice)
+        )
         return path
 
     def __getitem__(self, name: str) -> Node:
