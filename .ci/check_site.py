@@ -2,7 +2,7 @@
 
     python .ci/check_site.py site
 
-Each public name of optipath, op.plots and op.surfaces has its place in the reference, too.
+Each public name of optipath, and of the groups that it has, has its place in the reference, too.
 """
 
 import re
@@ -93,9 +93,13 @@ def faults_of(site):
             for target in pattern.findall(file.read_text("utf-8")):
                 yield f"{file.relative_to(site)} loads {target} from elsewhere"
     anchors = set().union(*(page.anchors for page in pages.values()))
-    for package in (op, op.plots, op.surfaces):
+    groups = [op.errors, op.fields, op.plots, op.surfaces]
+    for package in (op, *groups):
         for name in package.__all__:
-            if not {f"{package.__name__}.{name}", f"optipath.{name}"} & anchors:
+            if (
+                getattr(package, name) not in groups
+                and not {f"{package.__name__}.{name}", f"optipath.{name}"} & anchors
+            ):
                 yield f"{package.__name__}.{name} is not in the reference; add it in docs/api"
 
 
