@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     import numpy.typing as npt
+    from matplotlib.axes import Axes
 
     from optipath.light.conventions import Software
     from optipath.values.precision import Array
@@ -411,7 +412,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         return changed_matrix(convention, self.matrix)
 
-    def plot(self, ax: Any = None) -> Any:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the matrix over its M00 as a map of its elements with Matplotlib.
 
         Parameters

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from optipath.surfaces.photon import Photon
+
 
 Roughness: TypeAlias = tuple[float, float] | HeightField
 
@@ -354,7 +356,7 @@ class Sample(Unchanging):
         wavelength: str | npt.ArrayLike | None = None,
         stokes: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0),
         most_events: int = 1000,
-    ) -> Any:
+    ) -> Photon:
         """Return one of the photons that `energy` counts, with all that happens to it.
 
         Parameters
