@@ -18,6 +18,7 @@ from optipath.engines.choice import ENGINES, REGISTRY
 from optipath.kernels.catalog import METHODS, REFLECTION
 from optipath.light.conventions import CONVENTIONS, Software
 from optipath.plots.hemisphere_side import QUANTITIES, PixelName
+from optipath.sweeps.light_figures import _NAMES, FigureName
 from tables import rows
 
 SOURCE = Path(op.__file__).parent
@@ -302,6 +303,7 @@ def test_words_of_a_checker_are_those_of_the_library():
     assert tuple(REFLECTION.methods) == METHODS
     assert tuple(CONVENTIONS) == get_args(Software)
     assert tuple(QUANTITIES) == get_args(PixelName)
+    assert {*_NAMES} == {*get_args(FigureName)}
 
 
 def test_what_light_has_is_found_on_its_class():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, cast
 
 import numpy as np
 
@@ -140,7 +140,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     def absorbed(
         self,
         light: Light | npt.ArrayLike | None = None,
-        enters: str = "in",
+        enters: Literal["in", "back"] = "in",
         *,
         method: Method = "stable",
     ) -> npt.NDArray[np.float64]:

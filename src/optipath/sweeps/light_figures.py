@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 STOKES = 4
 """How many of the figures are the Stokes vector itself; they come first."""
 
+FigureName: TypeAlias = Literal[
+    "S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "ellipticity", "psi", "delta",
+    "dop", "dolp", "aop", "intensity",
+]  # fmt: skip
 _ROUNDINGS = 64.0
 _NAMES = {each.variable: place for place, each in enumerate(QUANTITIES)} | {
     each.attribute: place for place, each in enumerate(QUANTITIES) if not each.attribute.isdigit()

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.light.light import Light
-    from optipath.sweeps.light_figures import UncertainValue
+    from optipath.sweeps.light_figures import FigureName, UncertainValue
 
     Array = npt.NDArray[np.float64]
 
@@ -80,7 +80,7 @@ class Propagation(Unchanging):
         """The standard uncertainty of the Stokes vector, shape (..., 4)."""
         return self.uncertainties[..., :STOKES]
 
-    def uncertainty_of(self, quantity: str) -> Array:
+    def uncertainty_of(self, quantity: FigureName) -> Array:
         """Return the standard uncertainty of a quantity, shape (...).
 
         Examples
@@ -98,7 +98,7 @@ class Propagation(Unchanging):
         """The share of each value in the variance of the Stokes vector, by name, shape (..., 4)."""
         return self._by_name(self.shares[..., :STOKES, :])
 
-    def contributions_to(self, quantity: str) -> dict[str, Array]:
+    def contributions_to(self, quantity: FigureName) -> dict[str, Array]:
         """Return the share of each value in the variance of a quantity, by name, shape (...).
 
         To the first order they add up to 1, or are all 0 where nothing varies; where values are
@@ -107,7 +107,7 @@ class Propagation(Unchanging):
         """
         return self._by_name(self.shares[..., place_of(quantity), :])
 
-    def nonlinearity_of(self, quantity: str) -> dict[str, Array]:
+    def nonlinearity_of(self, quantity: FigureName) -> dict[str, Array]:
         """Return what the first order leaves of a quantity, by the value, shape (...).
 
         The change that slopes do not say, where a value is a standard uncertainty away from its
@@ -116,7 +116,7 @@ class Propagation(Unchanging):
         """
         return self._by_name(self.left[..., place_of(quantity), :])
 
-    def is_doubtful(self, quantity: str) -> npt.NDArray[np.bool_]:
+    def is_doubtful(self, quantity: FigureName) -> npt.NDArray[np.bool_]:
         """Return where the first order is doubtful, shape (...): more than a tenth is left."""
         doubtful = self.left[..., place_of(quantity), :] > LARGEST
         return np.asarray(doubtful.any(axis=-1))
