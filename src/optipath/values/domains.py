@@ -195,17 +195,10 @@ class Within:
 
     Examples
     --------
-    >>> from typing import Annotated
-    >>> import optipath as op
-    >>> class Gain(op.Element):
-    ...     factor: Annotated[op.fields.Real, op.fields.Within(0, 1)]
-    ...
-    ...     @staticmethod
-    ...     def jones_rows(xp, factor):
-    ...         return (factor, 0), (0, factor)
-    >>> Gain(2.0)
-    Traceback (most recent call last):
-    optipath.errors.ValueFault: Gain factor is 2; give a real number within 0 .. 1
+    A field ``factor: Annotated[op.fields.Real, op.fields.Within(0, 1)]`` takes
+
+    >>> Within(0, 1).narrowed(Domain("number")).described()
+    'a real number within 0 .. 1'
     """
 
     minimum: float | str | None = None
