@@ -21,7 +21,6 @@ from optipath.composer.wiring import (
     LOOPS,
     Wiring,
     among,
-    cycles,
     link_text,
     sharing_faults,
     tap_faults,
@@ -39,9 +38,10 @@ from optipath.values.precision import precision_name, whole_number
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.composer.wiring import Keep, Loops, Ways
+    from optipath.composer.wiring import Keep, Loops
     from optipath.engines.choice import EngineName
-    from optipath.engines.program import Model, Program, Reduction, Tolerance
+    from optipath.engines.draft import Draft
+    from optipath.engines.program import Model, Reduction, Tolerance
     from optipath.kernels.catalog import Method
     from optipath.values.precision import Precision
 
@@ -53,9 +53,10 @@ def checked(
     graph, faults = with_followed(values.graph)
     values = values if graph is values.graph else Values(graph)
     wiring = Wiring(graph, loops, keep)
+    wiring.alike = values.alike
     media = Media(wiring)
     # In a cycle by mistake, light meets media and misses ends in consequence.
-    cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring.untapped))
+    cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring))
     faults += [*values.faults, *placement_faults(wiring), *([] if cyclic else media.faults())]
     faults += [*_feeding_faults(wiring), *sharing_faults(wiring), *tap_faults(wiring)]
     faults += [*_dark_link_faults(wiring), *cyclic, *_missing_end_faults(wiring)]
@@ -101,28 +102,27 @@ def _feeding_faults(wiring: Wiring) -> Iterator[str]:
 
 def _reach_faults(wiring: Wiring) -> Iterator[str]:
     """Yield where a link is missing, and not what is cut off in consequence."""
-    dark = wiring.elements.keys() - {name for name, _ in wiring.lit}
-    missing = wiring.elements.keys() - {name for name, _ in wiring.useful}
-    for name in _firsts(wiring.graph.subgraph(dark)):
+    dark = wiring.elements.keys() - wiring.lit_nodes
+    missing = wiring.elements.keys() - wiring.useful_nodes
+    for name in _firsts(wiring.graph.subgraph(dark)) if dark else ():
         entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
         yield f"node '{name}' is reached by no source; link one to {entries}"
-    for name in _firsts(wiring.graph.subgraph(missing - dark), backwards=True):
+    missing -= dark
+    for name in _firsts(wiring.graph.subgraph(missing), backwards=True) if missing else ():
         exits = " or ".join(f"'{name}.{port}'" for port in wiring.elements[name].outputs)
         yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
 
 
 def _firsts(graph: nx.MultiDiGraph, *, backwards: bool = False) -> list[str]:
     """Return the nodes that no other leads to; of nodes in a circle, one."""
-    if not graph:
-        return []
     parts = nx.condensation(graph.reverse() if backwards else graph)
     return [min(parts.nodes[n]["members"]) for n, degree in parts.in_degree if not degree]
 
 
-def _loop_faults(ports: Ways) -> Iterator[str]:
-    for together in cycles(ports):
+def _loop_faults(wiring: Wiring) -> Iterator[str]:
+    for together in wiring.cycles:
         start = min(together)
-        inside = nx.DiGraph(among(ports, together))
+        inside = nx.DiGraph(among(wiring.untapped, together))
         back = min(inside.predecessors(start))
         route = [name for name, _ in nx.shortest_path(inside, start, back)]
         names = [name for i, name in enumerate(route) if i == 0 or route[i - 1] != name]
@@ -277,19 +277,23 @@ class Composer:
 
     def _plan(self, values: Values) -> Plan:
         values, wiring, media = checked(values, self.loops, self.keep)
-        whole = lower(wiring, self.method)
+        draft = lower(wiring, self.method)
         if self.composing == "jones":
-            refuse_no_jones(whole)
-        reduction, instead = self._reduced(whole)
+            refuse_no_jones(draft)
+        inputs, own_ways = values.inputs(media.open), wiring.own_ways(self.method)
+        outlets, taps = wiring.outlets, tuple(map(link_text, wiring.taps))
+        # Of a long path, they take as much memory as all that follows.
+        del values, wiring, media
+        reduction, instead = self._reduced(draft)
         return Plan(
-            whole=whole,
+            draft=draft,
             reduction=reduction,
             instead=instead,
             tolerance=self.tolerance,
-            inputs=values.inputs(media.open),
-            own_ways=tuple([w for w in wiring.own_ways(self.method) if not w.are_known()]),
-            outlets=wiring.outlets,
-            taps=tuple(map(link_text, wiring.taps)),
+            inputs=inputs,
+            own_ways=tuple([way for way in own_ways if not way.are_known()]),
+            outlets=outlets,
+            taps=taps,
             method=self.method,
             composing=self.composing,
             dtype=str(self.dtype),
@@ -297,9 +301,9 @@ class Composer:
             threads=self.threads,
         )
 
-    def _reduced(self, whole: Program) -> tuple[Reduction, Tolerance | None]:
+    def _reduced(self, draft: Draft) -> tuple[Reduction, Tolerance | None]:
         """Return what is run, and what may be taken in its place."""
-        exact = reduced(whole, self.model, self.composing, str(self.dtype))
+        exact = reduced(draft, self.model, self.composing, str(self.dtype))
         most = self.tolerance
         if most is not None and (instead := tolerated(exact, self.model, most)):
             return exact, instead

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at, vertex_frame
 from optipath.composer.wiring import link_text
+from optipath.engines.draft import Draft
 from optipath.engines.program import Reading
 from optipath.errors import ComposerError
 from optipath.faults import listed
@@ -18,12 +18,11 @@ from optipath.values.operands import Operand, Operation, ResultOf, operand_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Container
+    from collections.abc import Container, Iterable
 
     from optipath.composer.wiring import Link, Port, Stretch, Wiring
     from optipath.elements.coupling import Coupling
     from optipath.elements.vertex_place import VertexFrame
-    from optipath.engines.program import Program
 
 
 _FEW = 8
@@ -33,26 +32,26 @@ _UNIT = Frame()
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
 
-def lower(wiring: Wiring, method: str) -> Program:
-    """Return the program of a path: ports in the order of travel, each a step or none."""
+def lower(wiring: Wiring, method: str) -> Draft:
+    """Return the draft of a path: ports in the order of travel, each a step or none."""
     lowering = _Lowering(wiring, method)
     for stretch in wiring.stretches:
         lowering.add(stretch)
-    return lowering.program()
+    return lowering.result()
 
 
-def refuse_no_jones(program: Program) -> None:
+def refuse_no_jones(draft: Draft) -> None:
     """Refuse what Jones columns cannot pass: elements that may depolarise, and loops."""
     cure = "compose with composing='stokes'"
     faults = [
         f"'{step.label}' has a Mueller matrix, which may depolarise, and no Jones matrix; {cure}"
-        for step in program.steps
-        if step.evaluation is not None
-        and (structure := program.evaluations[step.evaluation].kernel.structure)
+        for step in draft.steps
+        if step.operation is not None
+        and (structure := getattr(step.operation.kernel, "structure", None))
         and not structure.jones
     ]
-    if program.loops and not faults:
-        places = listed([f"'{program.steps[loop.start].label}'" for loop in program.loops[:_FEW]])
+    if draft.loops and not faults:
+        places = listed([f"'{draft.steps[min(at)].label}'" for at, _ in draft.loops[:_FEW]])
         faults.append(
             f"light goes round at {places}, and what adds up there has no Jones vector; {cure}"
         )
@@ -64,12 +63,14 @@ class _Lowering:
 
     def __init__(self, wiring: Wiring, method: str) -> None:
         self.wiring = wiring
+        self._links_to, self._couplings = wiring.links_to, wiring.couplings
         self.method = method
-        self.builder = Builder()
+        self.draft = Draft()
         self.lights: dict[Port, int] = {}
+        self._ways: dict[int, tuple[Operand | None, list[Operation], Coupling]] = {}
         self.sources: dict[str, tuple[int, Frame | VertexFrame]] = {}
 
-    def program(self) -> Program:
+    def result(self) -> Draft:
         """Return the steps that have been added, and where their light ends."""
         ends: dict[bool, dict[str, Reading]] = {True: {}, False: {}}
         for name, port in self.wiring.ends:
@@ -77,13 +78,17 @@ class _Lowering:
             response = getattr(element, "response", None)
             if response is not None:
                 reads = self._lowered(Operation(RESPONSE, (response,)))
-                light = self.builder.step(f"{name}.response", (light,), reads)
+                light = self.draft.step(f"{name}.response", (light,), reads)
             components = _COMPONENTS[getattr(element, "reads", "stokes")]
             frame = self._reading_frame(name, port)
             ends[element.detects][name] = Reading(light, frame, components)
-        return self.builder.program(
-            sources=self.sources, detectors=ends[True], dumps=ends[False], links=self._links()
-        )
+        self.draft.ends = {
+            "sources": self.sources,
+            "detectors": ends[True],
+            "dumps": ends[False],
+            "links": self._links(),
+        }
+        return self.draft
 
     def _links(self) -> dict[str, Reading]:
         """Return the light of every link and outlet, if all is to be kept."""
@@ -101,26 +106,31 @@ class _Lowering:
         """Add the steps that make the light at the ports of a stretch."""
         outside = {junction: self._arriving(junction) for junction in stretch.junctions}
         for junction in outside:
-            self.lights[junction] = self.builder.sum(".".join(junction), ())
+            self.lights[junction] = self.draft.sum(".".join(junction), ())
         # The junctions come first.
         for port in stretch.ports[len(outside) :]:
-            self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
+            links = self._links_to.get(port, ())
+            if len(links) == 1 and not self.wiring.may_turn(links[0]):
+                self.lights[port] = self.lights[links[0][0], links[0][2][0]]
+                continue
+            lights = self._arriving(port)
+            only = len(lights) == 1
+            self.lights[port] = lights[0] if only else self.draft.sum(".".join(port), lights)
         if outside:
             within, sums = set(stretch.ports), dict[int, list[int]]()
             for junction, lights in outside.items():
                 sums[self.lights[junction]] = [*lights, *self._arriving(junction, within)]
-            self.builder.close(sums)
+            self.draft.close(sums)
 
     def _arriving(self, port: Port, within: set[Port] | None = None) -> list[int]:
         """Return the lights that add up at a port, those from ports within some alone."""
-        name, way = port
         lit: Container[Port] = self.lights if within is None else within
-        if way in self.wiring.elements[name].inputs:
-            links = self.wiring.links_to[port]
+        if links := self._links_to.get(port):
             return [self._along(link) for link in links if (link[0], link[2][0]) in lit]
+        name, way = port
         return [
             self._pass(name, coupling)
-            for coupling in self.wiring.couplings[name]
+            for coupling in self._couplings[name]
             if coupling.leaves == way
             and (within is None if coupling.enters is None else (name, coupling.enters) in lit)
         ]
@@ -131,26 +141,29 @@ class _Lowering:
         light, turn = self.lights[start, leaves], alignment(self.wiring, link)
         if turn is None:
             return light
-        return self.builder.step(link_text(link), (light,), self._lowered(turn))
+        return self.draft.step(link_text(link), (light,), self._lowered(turn))
 
     def _pass(self, name: str, coupling: Coupling) -> int:
         label = f"{name}.{coupling.leaves}"
-        operations = map(self._lowered, coupling.operations)
+        # One element may stand in many places.
+        if (known := self._ways.get(id(coupling))) is None:
+            operations = [self._lowered(operation) for operation in coupling.operations]
+            known = self._ways[id(coupling)] = _presence(coupling.operations), operations, coupling
+        presence, operations, _ = known
         if coupling.enters is None:
-            light = self.builder.step(label, (), next(operations), port=True)
+            light = self.draft.step(label, (), operations[0], about=(True, 0))
             self.sources[name] = (light, self._frame_behind(name, coupling.leaves))
             return light
         light = self.lights[name, coupling.enters]
-        presence = _presence(coupling.operations)
         if presence is not None and presence.known:
             if np.all(there := presence.numbers()):
                 presence = None
             elif not np.any(there):
                 return light
-        last = len(coupling.operations) - 1
+        last = len(operations) - 1
         for place, operation in enumerate(operations):
-            about = {"port": True, "bounces": int(coupling.reflects and place == last)}
-            light = self.builder.step(label, (light,), operation, presence, **about)
+            about = True, int(coupling.reflects and place == last)
+            light = self.draft.step(label, (light,), operation, presence, about)
         return light
 
     def _lowered(self, operation: Operation) -> Operation:
@@ -158,15 +171,17 @@ class _Lowering:
         known: dict[int, Operation] = {}
         results: list[Operand | ResultOf] = []
         for argument in operation.arguments:
-            if not isinstance(argument, ResultOf):
+            if type(argument) is float:
+                results.append(Operand(argument))
+            elif type(argument) is ResultOf:
+                inner = argument.operation
+                if id(inner) not in known:
+                    known[id(inner)] = self._lowered(inner)
+                results.append(ResultOf(known[id(inner)], argument.place))
+            else:
                 operand = operand_of(argument)
                 is_bound = isinstance(operand.value, Parameter) and operand.value.bound
                 results.append(_number_bound(operand) if is_bound else operand)
-                continue
-            inner = argument.operation
-            if id(inner) not in known:
-                known[id(inner)] = self._lowered(inner)
-            results.append(ResultOf(known[id(inner)], argument.place))
         return Operation(operation.kernel.by_method(self.method), tuple(results))
 
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
@@ -193,10 +208,14 @@ def _number_bound(operand: Operand) -> Operand:
     return Operand(0.0 if operand.part == "imag" else operand.value.placed(number))
 
 
-def _presence(operations: tuple[Operation, ...]) -> Operand | None:
+def _presence(operations: Iterable[Operation]) -> Operand | None:
     for operation in operations:
-        for operand in operation.operands():
-            value: Any = operand.value
+        for argument in operation.arguments:
+            if type(argument) is ResultOf:
+                if inner := _presence([argument.operation]):
+                    return inner
+                continue
+            value = argument.value if type(argument) is Operand else argument
             if isinstance(value, Parameter) and value.optional:
                 return Operand(value, "present")
     return None

@@ -15,6 +15,7 @@ from optipath.composer.placement import along_legs
 from optipath.composer.wiring import Wiring
 from optipath.elements.boundary import BoundaryElement, world_angles
 from optipath.elements.boundary_media import MediaOfBoundary, arriving_waves
+from optipath.elements.element import Element
 from optipath.faults import Cure, Fault
 from optipath.kernels.fresnel.boundary import phase_index
 from optipath.kernels.primitives import of_module
@@ -56,7 +57,7 @@ class Media:
     def faults(self) -> list[str]:
         """Return what does not fit of the values that are known, a sentence each."""
         faults = first_faults([agreement for agreement in self._all if not agreement.is_open])
-        for meeting in self.meetings.wedges:
+        for meeting in () if self.meetings.in_one_medium else self.meetings.wedges:
             (name, _), (own, _) = meeting.leaves, meeting.enters
             says = (
                 f"'{own}', which says parallel=False, though light comes back at another incidence"
@@ -67,10 +68,11 @@ class Media:
 
     @cached_property
     def _all(self) -> tuple[Agreement, ...]:
-        return *self._media, *self._between_layers, *self._arriving, *self._within
+        met = () if self.meetings.in_one_medium else (*self._media, *self._between_layers)
+        return *met, *self._arriving, *self._within
 
     @property
-    def _media(self) -> tuple[SameMedium, ...]:
+    def _media(self) -> list[Agreement]:
         results: dict[Any, SameMedium | None] = {}
         for meeting in self.meetings.all:
             if meeting.sides in results:
@@ -78,6 +80,8 @@ class Media:
             (start, leaves), (end, enters) = meeting.leaves, meeting.enters
             element = self.elements[end]
             first, second = self.elements[start].medium_at(leaves), element.medium_at(enters)
+            if type(first) is type(second) is float and first == second:
+                continue
             in_front, results[meeting.sides] = enters == "in", None
             absorbs = _absorptions(first, second, element)
             if absorbs or not are_same(first, second):
@@ -89,7 +93,7 @@ class Media:
                     measures=in_front and self._measures_in_front(meeting.enters),
                     follows=in_front and self._follows(end, "outside"),
                 )
-        return tuple(filter(None, results.values()))
+        return list(filter(None, results.values()))
 
     @property
     def _between_layers(self) -> Iterator[Agreement]:
@@ -138,14 +142,17 @@ class Media:
     def _within(self) -> Iterator[Agreement]:
         """What must fit of the values of one element."""
         for name, element in self.elements.items():
-            yield from element.agreements(name)
+            if type(element).agreements is not Element.agreements:
+                yield from element.agreements(name)
 
     @property
     def _arriving(self) -> Iterator[Agreement]:
         """What must hold of light that comes out of media that absorb."""
-        for name, port in sorted(self.meetings.wiring.lit):
-            if isinstance(element := self.elements[name], BoundaryElement):
-                yield from arriving_waves(name, element, port)
+        for name in sorted(self.meetings.faces):
+            element = self.elements[name]
+            for port in sorted(element.inputs):
+                if waves := arriving_waves(name, element, port):
+                    yield from waves if self.meetings.wiring.is_lit(name, port) else ()
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""

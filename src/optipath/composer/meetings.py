@@ -45,23 +45,50 @@ class Meetings:
     @cached_property
     def all(self) -> tuple[Meeting, ...]:
         """Every meeting, those by a front first: these have a medium to be given."""
-        results = [meeting for meeting in self._arrivals if self._is_boundary(meeting.enters)]
+        results = [meeting for meeting in self._arrivals if meeting.enters[0] in self._boundaries]
         return tuple(sorted(results, key=lambda meeting: meeting.enters[1] == "back"))
 
     @cached_property
     def _arrivals(self) -> list[Meeting]:
         """Where light of boundaries gets to in one medium: other boundaries, and mirrors."""
         elements = self.wiring.elements
-        starts = [(name, port) for name, e in elements.items() for port in e.outputs]
-        return [way for start in starts if self._is_boundary(start) for way in self._of(start)]
+        starts = [(name, port) for name in self._boundaries for port in elements[name].outputs]
+        return [way for start in starts if start in self._links_from for way in self._of(start)]
 
-    def _is_boundary(self, port: Port) -> bool:
-        return isinstance(self.wiring.elements[port[0]], MediaOfBoundary)
+    @cached_property
+    def _boundaries(self) -> dict[str, None]:
+        elements = self.wiring.elements.items()
+        return dict.fromkeys([name for name, e in elements if isinstance(e, MediaOfBoundary)])
+
+    @cached_property
+    def in_one_medium(self) -> bool:
+        """Whether boundaries only reflect, each in front, in one medium, and no light comes back.
+
+        There is nothing to compare then, and long paths of mirrors are mostly so.
+        """
+        media = set[float]()
+        for name in self._boundaries:
+            element: Any = self.wiring.elements[name]
+            medium = element.medium_at("in")
+            used = [port for port in element.outputs if (name, port) in self._links_from]
+            used += [port for port in element.inputs if (name, port) in self.wiring.links_to]
+            if not {"in", "reflected"}.issuperset(used) or type(medium) is not float:
+                return False
+            media.add(medium)
+        return len(media) < 2 and not self.wiring.cycles
+
+    @cached_property
+    def faces(self) -> set[str]:
+        """The nodes of boundaries that refract, vertices aside."""
+        elements = self.wiring.elements
+        return {name for name in self._boundaries if isinstance(elements[name], BoundaryElement)}
 
     @cached_property
     def _links_from(self) -> dict[Port, list[Link]]:
         """The links of each out-port, those that only read its light included."""
         wiring = self.wiring
+        if not wiring.taps:
+            return wiring.links_from
         results = {port: [*links] for port, links in wiring.links_from.items()}
         for tap in wiring.taps:
             results.setdefault((tap[0], tap[2][0]), []).append(tap)
@@ -86,32 +113,35 @@ class Meetings:
 
     def _of(self, start: Port) -> Iterator[Meeting]:
         """Yield where light goes in one medium, also by mirrors."""
-        wiring = self.wiring
+        wiring, links_from = self.wiring, self._links_from
         waiting: list[tuple[Port, bool, tuple[Any, ...]]] = [(start, True, ())]
         seen: dict[Port, set[Any]] = {}
         while waiting:
             port, straight, before = waiting.pop()
-            for link in self._links_from.get(port, ()):
-                enters = link[1], link[2][1]
-                element, azimuth = wiring.elements[link[1]], azimuth_of(wiring, link)
-                turns = before if is_zero(azimuth) else (*before, azimuth)
+            for link in links_from.get(port, ()):
+                name, enters, turns = link[1], (link[1], link[2][1]), before
+                if wiring.may_turn(link):
+                    azimuth = azimuth_of(wiring, link)
+                    turns = before if is_zero(azimuth) else (*before, azimuth)
                 routes = seen.setdefault(enters, set())
-                route = straight, keys_of(turns)
+                route = straight, keys_of(turns) if turns else ()
                 if route in routes or len(routes) == _MOST_ROUTES:
                     continue
                 routes.add(route)
-                meeting = Meeting(start, enters, straight, turns, frozenset([_side(start), enters]))
-                if self._is_boundary(enters):
-                    yield meeting
+                if name in self._boundaries:
+                    yield Meeting(start, enters, straight, turns, _sides(start, enters))
                     continue
-                for way in wiring.couplings[link[1]]:
+                element = wiring.elements[name]
+                for way in wiring.couplings[name]:
+                    if way.enters != enters[1]:
+                        continue
                     # A beam splitter lets light through as it is.
                     passes = isinstance(element, FourPort) and not way.reflects
                     goes_on = element.straight or passes
-                    if way.enters == enters[1] and (goes_on or way.reflects):
-                        waiting.append(((link[1], way.leaves), straight and goes_on, turns))
+                    if goes_on or way.reflects:
+                        waiting.append(((name, way.leaves), straight and goes_on, turns))
                         if not goes_on:
-                            yield meeting
+                            yield Meeting(start, enters, straight, turns, _sides(start, enters))
 
     @cached_property
     def in_layers(self) -> tuple[Meeting, ...]:
@@ -167,27 +197,32 @@ class Meetings:
 
     def _comes_before(self, meeting: Meeting) -> bool:
         name, port = meeting.enters
-        if port == "in" or (name, "in") not in self.wiring.lit:
+        if port == "in" or not self.wiring.is_lit(name, "in"):
             return True
         in_front = any(m.enters == (name, "in") for m in self._straight)
         return not in_front and meeting.sides not in self.to_and_fro
 
     def _of_faces(self, meeting: Meeting) -> bool:
-        ends = (self.wiring.elements[name] for name, _ in (meeting.leaves, meeting.enters))
-        others = len({name for name, _ in meeting.sides}) > 1
-        return others and meeting.straight and all(isinstance(e, BoundaryElement) for e in ends)
+        first, second = meeting.leaves[0], meeting.enters[0]
+        faces = self.faces
+        return meeting.straight and first != second and first in faces and second in faces
 
     def _refracted(self, port: Port) -> bool:
         """Tell whether light at a port has been refracted there, and not reflected as well."""
         name, leaves = port
-        lit = self.wiring.lit
+        is_lit = self.wiring.is_lit
         if leaves == "transmitted":
-            return (name, "in") in lit
-        return (name, "back") in lit and (name, "in") not in lit
+            return is_lit(name, "in")
+        return is_lit(name, "back") and not is_lit(name, "in")
 
     def _is_in_space(self, meeting: Meeting) -> bool:
-        nodes = (self.wiring.graph.nodes[name] for name, _ in (meeting.leaves, meeting.enters))
-        return all(len(node["frames"]) > 1 for node in nodes)
+        framed = self.wiring.framed
+        names = meeting.leaves[0], meeting.enters[0]
+        return bool(framed) and all(len(framed.get(name, ())) > 1 for name in names)
+
+
+def _sides(start: Port, enters: Port) -> frozenset[Port]:
+    return frozenset([_side(start), enters])
 
 
 def _side(port: Port) -> Port:

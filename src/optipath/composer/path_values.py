@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import link_text
+from optipath.elements.element import Element, alike
 from optipath.elements.own_element import couplings_of
 from optipath.errors import ValueFault
 from optipath.materials.quantities import ANGLE, SPECTRAL
@@ -40,11 +41,20 @@ class Values:
         self.graph = graph
 
     @cached_property
+    def alike(self) -> dict[str, Element]:
+        """For each node, the first element that is equal to its own."""
+        return alike(dict(self.graph.nodes(data="element")))
+
+    @cached_property
     def uses(self) -> tuple[Use, ...]:
         """Each number where it stands."""
         results: list[Use] = []
-        for name, element in self.graph.nodes(data="element"):
-            results += element.uses(name)
+        # Of equal elements the first says what their values are, and what is wrong with them.
+        seen = set[int]()
+        for name, element in self.alike.items():
+            if id(element) not in seen:
+                seen.add(id(element))
+                results += element.uses(name)
         results += self._entered()
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
@@ -64,8 +74,10 @@ class Values:
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
-        links, elements = self.graph.edges(keys=True), self.graph.nodes(data="element")
-        entries = dict.fromkeys([(end, enters) for _, end, (_, enters) in links])
+        elements = self.graph.nodes(data="element")
+        asked = {n for n, e in elements if type(e).uses_entered is not Element.uses_entered}
+        links = self.graph.edges(keys=True) if asked else ()
+        entries = dict.fromkeys([(end, key[1]) for _, end, key in links if end in asked])
         return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
 
     @cached_property

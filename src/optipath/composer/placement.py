@@ -31,7 +31,7 @@ _ANY = Frame()
 
 def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
     """Return the world frame of a port; None for a port placed relatively."""
-    frames = wiring.graph.nodes[name]["frames"]
+    frames = wiring.framed.get(name)
     return wiring.elements[name].frame_of(port, frames) if frames else None
 
 
@@ -42,8 +42,10 @@ def goes_straight(element: Element, enters: str, leaves: str) -> bool:
 
 def azimuth_of(wiring: Wiring, link: Link) -> Any:
     """Return the turn of a relatively placed link in rad: its own, or else its element's."""
-    own = wiring.graph.edges[link]["azimuth"]
-    return azimuth_at(wiring.elements[link[1]], link[2][1]) if own is None else own
+    own = wiring.azimuths.get(link)
+    if own is None and link[1] in wiring.turned:
+        return azimuth_at(wiring.elements[link[1]], link[2][1])
+    return 0.0 if own is None else own
 
 
 def alignment(wiring: Wiring, link: Link) -> Operation | None:
@@ -51,8 +53,8 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
     start, end, (leaves, enters) = link
     if start in wiring.self_placed and end in wiring.self_placed:
         return wiring.elements[end].turn_from(wiring.elements[start])
-    arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
-    if arriving is not None and expected is not None:
+    arriving = frame_at(wiring, start, leaves) if wiring.framed else None
+    if arriving is not None and (expected := frame_at(wiring, end, enters)) is not None:
         c, s = arriving.turn_to(expected)
         if np.all(c == 1.0) and np.all(s == 0.0):
             return None
@@ -83,9 +85,9 @@ def _beside_vertex(wiring: Wiring, link: Link) -> tuple[Frame, VertexFrame] | No
 
 def along_legs(wiring: Wiring) -> Iterator[AlongLeg]:
     """Yield what must fit of world frames and of vertices next to them."""
-    if not wiring.self_placed or not any(wiring.graph.nodes(data="frames")):
+    if not wiring.self_placed or not wiring.framed:
         return
-    for link in wiring.graph.edges(keys=True):
+    for link in wiring.links:
         masks = any(getattr(wiring.elements[end], "bad", "") == "mask" for end in link[:2])
         if not masks and (beside := _beside_vertex(wiring, link)):
             enters = frame_at(wiring, link[0], link[2][0]) is None
@@ -95,17 +97,18 @@ def along_legs(wiring: Wiring) -> Iterator[AlongLeg]:
 def placement_faults(wiring: Wiring) -> list[str]:
     """Return what is wrong with the frames and turns of the links, a sentence each."""
     results = []
-    for name, element in wiring.elements.items():
-        frames = wiring.graph.nodes[name]["frames"]
+    for name in filter(wiring.placed.__contains__, wiring.elements):
+        element, frames = wiring.elements[name], wiring.framed.get(name, {})
         shapes = {port: frame.z.shape[:-1] for port, frame in frames.items()}
         if not shapes or not broadcast_fault(shapes):
             results += element.frame_faults(name, frames)
-    for link in wiring.graph.edges(keys=True):
+    for link in filter(wiring.may_turn, wiring.links):
         fault = _self_placed_fault(wiring, link) or _link_fault(wiring, link)
         results += [f"link '{link_text(link)}'{fault}"] if fault else []
-    for name, element in wiring.elements.items():
-        if element.merges and frame_at(wiring, name, "in") is None:
-            results += _meeting_faults(wiring, name)
+    if wiring.placed:
+        for name, element in wiring.elements.items():
+            if element.merges and frame_at(wiring, name, "in") is None:
+                results += _meeting_faults(wiring, name)
     legs = [] if results else [law for law in along_legs(wiring) if not law.is_open]
     return [*results, *first_faults(legs), *_between_faults(wiring)]
 
@@ -114,7 +117,7 @@ def _self_placed_fault(wiring: Wiring, link: Link) -> str:
     """Say what is wrong with a link between elements that have frames by their values."""
     start, end, _ = link
     if start in wiring.self_placed and end in wiring.self_placed:
-        if wiring.graph.edges[link]["azimuth"] is not None:
+        if link in wiring.azimuths:
             return " is turned by its vertices and by an azimuth; leave the azimuth out"
         fault = wiring.elements[end].fault_behind(wiring.elements[start])
         return f" {fault}" if fault else ""
@@ -123,8 +126,7 @@ def _self_placed_fault(wiring: Wiring, link: Link) -> str:
 
 def _between_faults(wiring: Wiring) -> Iterator[str]:
     """Yield what is wrong with elements that stand relatively between two vertices."""
-    nodes = wiring.graph.nodes(data="frames")
-    known = wiring.self_placed | {name for name, frames in nodes if frames}
+    known = wiring.placed
     for name in filter(wiring.self_placed.__contains__, wiring.elements):
         waiting = [p for p in wiring.graph.predecessors(name) if p not in known]
         seen = set(waiting)
@@ -142,8 +144,8 @@ def _between_faults(wiring: Wiring) -> Iterator[str]:
 
 def _link_fault(wiring: Wiring, link: Link) -> str:
     start, end, (leaves, enters) = link
-    own, nodes = wiring.graph.edges[link]["azimuth"], wiring.graph.nodes
-    if own is None and not nodes[start]["frames"] and not nodes[end]["frames"]:
+    own, framed = wiring.azimuths.get(link), wiring.framed
+    if own is None and start not in framed and end not in framed:
         return ""
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     element_turn = azimuth_at(wiring.elements[end], enters)
@@ -151,7 +153,7 @@ def _link_fault(wiring: Wiring, link: Link) -> str:
         turns = f"{turn_text(own)} and {turn_text(element_turn)}"
         return f" and '{end}' both give an azimuth, {turns}; give it in one place"
     for name, port, frame in ((start, leaves, arriving), (end, enters, expected)):
-        if frame is None and (frames := nodes[name]["frames"]):
+        if frame is None and (frames := framed.get(name)):
             other = f"'{name}.{port}' has no world frame, though '{name}.{next(iter(frames))}' has"
             return f": {other}; give it one"
     ends_relatively = expected is None and not wiring.elements[end].outputs and own is None

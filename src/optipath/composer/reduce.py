@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from functools import lru_cache, partial
-from math import inf, isfinite
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import chain
+from math import inf
+from operator import and_
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
-from optipath.composer.builder import Item, along_chains, label_of
-from optipath.engines.program import MODELS, Reduction, Result, Tolerance
+from optipath.composer.flow import Flow, Item, find_alive, idle_items, number_of, vanishes
+from optipath.engines.program import MODELS, Reduction, Tolerance
 from optipath.errors import ComposerError
 from optipath.faults import listed
 from optipath.kernels.carriers.structures import (
@@ -31,229 +31,37 @@ from optipath.kernels.catalog import (
     TURN,
     TURN_BACK,
 )
-from optipath.kernels.kernel import Entry
 from optipath.kernels.primitives import FLOAT
 from optipath.values.operands import Operand, Operation, ResultOf
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
-    from collections.abc import Set as AbstractSet
+    from collections.abc import Callable, Hashable, Sequence
 
+    from optipath.engines.draft import Draft
     from optipath.engines.program import Program
     from optipath.kernels.carriers.structures import Structure
-    from optipath.kernels.kernel import Kernel
 
-    Pass: TypeAlias = Callable[[Program], tuple[Program, list[str]]]
-
-
-Entries: TypeAlias = tuple[tuple[Entry, ...], ...]
-"""Four rows of a matrix, or one row of what a source emits."""
-
-_ALL = frozenset(range(4))
-_IDENTITY: Entries = tuple(tuple(float(row == column) for column in range(4)) for row in range(4))
+    Pass: TypeAlias = Callable[[Flow], list[str]]
+    """Changes chains in place, and says what it has done."""
 
 
-class Live:
-    """What of each light of a program is alive."""
-
-    def __init__(
-        self,
-        program: Program,
-        doubtful: AbstractSet[int] = frozenset(),
-        entries: list[Entries] | None = None,
-    ) -> None:
-        self.program = program
-        self.doubtful = doubtful
-        self.entries = _entries_of_steps(program) if entries is None else entries
-        self.sources = [_sources(each) for each in self.entries]
-        self.reached: list[set[int]] = [set() for _ in program.steps]
-        self.needed: list[set[int]] = [set() for _ in program.steps]
-        _until_resolved(reversed(range(len(program.steps))), self._forward)
-        for reading in program.readings.values():
-            self.needed[reading.light] |= set(range(reading.components))
-        _until_resolved(range(len(program.steps)), self._backward)
-
-    @property
-    def components(self) -> tuple[tuple[int, ...], ...]:
-        """For each light, the components that are alive; an intensity always is."""
-        pairs = zip(self.reached, self.needed, strict=True)
-        return tuple([tuple(sorted((reached & needed) | {0})) for reached, needed in pairs])
-
-    def idle(self) -> set[int]:
-        """Return the steps that each leave everything as it is that is alive."""
-        results = set()
-        for light, step in enumerate(self.program.steps):
-            if step.evaluation is not None and step.inputs:
-                needed, reached = self.needed[light] | {0}, self.reached[step.inputs[0]]
-                changed = _changed(self.entries[light])
-                if not any(row in needed and column in reached for row, column in changed):
-                    results.add(light)
-        return results
-
-    def _forward(self, light: int) -> Iterable[int]:
-        inputs = self.program.steps[light].inputs
-        arriving = set().union(*[self.reached[before] for before in inputs]) if inputs else _ALL
-        results = {row for row, columns in enumerate(self.sources[light]) if columns & arriving}
-        if light in self.doubtful:
-            results |= arriving
-        if results <= self.reached[light]:
-            return ()
-        self.reached[light] |= results
-        return self.program.used_by[light]
-
-    def _backward(self, light: int) -> Iterable[int]:
-        request = set().union(*[self.sources[light][row] for row in self.needed[light]])
-        before = [i for i in self.program.steps[light].inputs if not request <= self.needed[i]]
-        for source in before:
-            self.needed[source] |= request
-        return before
-
-
-def _until_resolved(lights: Iterable[int], look: Callable[[int], Iterable[int]]) -> None:
-    """Look at lights, the last one first, and again at those that the look at another asks for."""
-    waiting = dict.fromkeys(lights)
-    while waiting:
-        light, _ = waiting.popitem()
-        waiting |= dict.fromkeys(look(light))
-
-
-@lru_cache(1024)
-def _sources(entries: Entries) -> tuple[frozenset[int], ...]:
-    """Return of which components each component is made."""
-    if len(entries) == 1:
-        # What a source emits is made of nothing that arrives, and there if it is not 0.
-        return tuple(_ALL if entry != 0.0 else frozenset() for entry in entries[0])
-    return tuple(frozenset(j for j, entry in enumerate(row) if entry != 0.0) for row in entries)
-
-
-@lru_cache(1024)
-def _changed(entries: Entries) -> tuple[tuple[int, int], ...]:
-    """Return which entries are not, or may not be, those of a step that does nothing."""
-    places = ((row, column) for row in range(4) for column in range(4))
-    return tuple((r, c) for r, c in places if entries[r][c] != _IDENTITY[r][c])
-
-
-def left_out(program: Program) -> tuple[Program, list[str]]:
-    """Return a program without the steps that do nothing to what is alive."""
-    live = Live(program)
+def left_out(flow: Flow) -> list[str]:
+    """Take the steps out that do nothing to what is alive."""
+    find_alive(flow)
+    if not (idle := idle_items(flow)):
+        return []
     # One may be idle since another takes away what would reach it: without both, it reaches on.
-    idle = live.idle()
-    idle = idle and idle & Live(program, idle, live.entries).idle()
-    if not idle:
-        return replace(program, live=live.components), []
+    find_alive(flow, idle)
+    idle &= idle_items(flow)
     notes = []
-    for light in sorted(idle):
-        step = program.steps[light]
-        kernel = program.evaluations[step.evaluation or 0].kernel
-        notes.append(f"left out, since it changes nothing alive: {kernel.name} at '{step.label}'")
-
-    def rest(items: list[Item]) -> list[Item]:
-        return [item for item in items if item.light not in idle]
-
-    return along_chains(program, rest), notes
-
-
-def number_of(operand: Operand) -> float | None:
-    """Return the one real number that an operand is known to be; None for all else."""
-    if type(operand.value) is float and operand.part in ("value", "real"):
-        return operand.value
-    if not operand.known or operand.traced or operand.part == "present":
-        return None
-    numbers = operand.numbers({})
-    return None if numbers.ndim or numbers.dtype.kind == "c" else float(numbers)
-
-
-def vanishes(operand: Operand) -> bool:
-    """Tell whether an operand is known to be 0, for every path."""
-    if not operand.known or operand.traced:
-        return False
-    numbers = operand.numbers({})
-    # Of most arrays the first number tells.
-    return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
-
-
-def known_numbers(
-    program: Program,
-) -> tuple[list[float | None], list[tuple[float, ...] | None]]:
-    """Return the number of each operand, and those of each evaluation, as far as known.
-
-    In a loop none is known: in twice the digits, what floats give as 0 or 1 may be neither.
-    """
-    operands = list(map(number_of, program.operands))
-    outcomes: list[tuple[float, ...] | None] = []
-    for evaluation in program.evaluations:
-        arguments: list[float | None] = []
-        for argument in evaluation.arguments:
-            if isinstance(argument, Result):
-                results = outcomes[argument.evaluation]
-                arguments.append(None if results is None else results[argument.place])
-            else:
-                arguments.append(operands[argument])
-        unknown = None in arguments or program.loops
-        outcomes.append(None if unknown else _evaluated(evaluation.kernel, tuple(arguments)))
-    return operands, outcomes
-
-
-def _entries_of_steps(program: Program) -> list[Entries]:
-    """Return what is known of the matrix of each step, or of what it emits."""
-    numbers, outcomes = known_numbers(program)
-    pairs = zip(program.operands, numbers, strict=True)
-    # Which number it is seldom matters, but for these two.
-    operands = [0.0 if n is None and vanishes(o) else _ZERO_OR_ONE.get(n) for o, n in pairs]
-    results: list[Entries] = []
-    for evaluation, outcome in zip(program.evaluations, outcomes, strict=True):
-        known: list[Entry] = []
-        for argument in evaluation.arguments:
-            if not isinstance(argument, Result):
-                known.append(operands[argument])
-                continue
-            # A result is that of a kernel without structure, of which there is one row.
-            of_matrix = program.evaluations[argument.evaluation].kernel.structure is not None
-            row = () if of_matrix else results[argument.evaluation][0]
-            number = row[argument.place] if argument.place < len(row) else None
-            known.append(_ZERO_OR_ONE.get(number))
-        may_be_absent = evaluation.presence is not None
-        results.append(_entries(evaluation.kernel, outcome, tuple(known), may_be_absent))
-    # What adds lights up, and does nothing to them, is known as such.
-    places = [step.evaluation for step in program.steps]
-    return [_IDENTITY if place is None else results[place] for place in places]
-
-
-_ZERO_OR_ONE: dict[Entry, Entry] = {0.0: 0.0, 1.0: 1.0}
-
-
-@lru_cache(1024)
-def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] | None:
-    try:
-        return tuple(map(float, kernel.made_for(FLOAT)(*numbers)))
-    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-        return None
-
-
-@lru_cache(1024)
-def _entries(
-    kernel: Kernel,
-    outcome: tuple[float, ...] | None,
-    known: tuple[Entry, ...],
-    may_be_absent: bool,  # noqa: FBT001 - a part of the key
-) -> Entries:
-    """Return what is known of a matrix: its numbers, or what the kernel declares of them."""
-    if outcome is None and None not in known:
-        outcome = _evaluated(kernel, tuple(number for number in known if number is not None))
-    zeros = {place for place, number in enumerate(known) if number == 0.0}
-    numbers = kernel.known_numbers(zeros, len(known)) if outcome is None else outcome
-    if kernel.structure is None:
-        row = tuple(
-            None if number is None or not isfinite(number) else number for number in numbers
-        )
-        return (row or (None,) * 4,)
-    rows = kernel.structure.known_rows(numbers)
-    if not may_be_absent:
-        return rows
-    return tuple(
-        tuple(entry if entry == usual else None for entry, usual in zip(row, of_none, strict=True))
-        for row, of_none in zip(rows, _IDENTITY, strict=True)
-    )
+    for node in flow.chains:
+        for item in node.items:
+            if item in idle:
+                what = f"{item.kernel.name} at '{item.label}'"
+                notes.append(f"left out, since it changes nothing alive: {what}")
+        node.items = [item for item in node.items if item not in idle]
+    return notes
 
 
 def passes_for(model: str, composing: str, dtype: str) -> tuple[dict[str, Pass], int]:
@@ -272,19 +80,23 @@ def passes_for(model: str, composing: str, dtype: str) -> tuple[dict[str, Pass],
     return result, 3 if stokes else 1
 
 
-def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction:
+def reduced(whole: Draft, model: str, composing: str, dtype: str) -> Reduction:
     """Return the smallest program that is exact for a path."""
     passes, rounds = passes_for(model, composing, dtype)
-    program, notes = whole, list[str]()
+    flow, notes = Flow(whole), list[str]()
     for _ in range(rounds):
         done = len(notes)
         for each in passes.values():
-            program, result = each(program)
-            notes += result
+            if more := each(flow):
+                notes += more
+                flow.is_looked_at = False
         if len(notes) == done:
             break
+    if not flow.is_looked_at:
+        find_alive(flow)
+    program = (flow.drafted() if notes else whole).program
+    program = replace(program, live=flow.live(changed=bool(notes)))
     folded = tuple(dict.fromkeys(notes))
-    program = replace(program, live=program.live or Live(program).components)
     if passes and composing == "stokes":
         counts = tuple([alive[-1] + 1 for alive in program.live])
         program, size = replace(program, counts=counts), max(counts)
@@ -325,34 +137,40 @@ def _reason(program: Program, size: int) -> str:
     return f"{listed(names)} are alive" + (f", {listed(dead)} nowhere" if dead else "")
 
 
-def cheaper_kernels(program: Program) -> tuple[Program, list[str]]:
-    """Return a program with the cheapest kernel for what is known of its arguments."""
-    cheaper: dict[int | None, Operation] = {}
-    for place, evaluation in enumerate(program.evaluations):
-        argument = program.operations[place].arguments
-        kernel, arguments = evaluation.kernel.specialised(argument, _vanishes)
-        kernel = kernel.never_less(arguments, _span)
-        if kernel is not evaluation.kernel:
-            cheaper[place] = Operation(kernel, arguments)
-    if not cheaper:
-        return program, []
+def cheaper_kernels(flow: Flow) -> list[str]:
+    """Give each step the cheapest kernel for what is known of its arguments."""
+    notes: list[str] = []
+    cheapest: dict[int, Operation | None] = {}
+    items = chain.from_iterable([node.items for node in flow.chains])
+    for item in [item for item in items if item.kernel.has_cheaper]:
+        operation = item.operation
+        if id(operation) not in cheapest:
+            cheapest[id(operation)] = _cheaper(operation)
+        if cheaper := cheapest[id(operation)]:
+            notes.append(f"cheaper at '{item.label}': {cheaper.kernel.name}")
+            item.become(cheaper)
+    return notes
 
-    def cheapest(item: Item) -> Item:
-        place = program.steps[item.light].evaluation
-        return item._replace(operation=cheaper.get(place, item.operation))
 
-    steps = [step for step in program.steps if step.evaluation in cheaper]
-    pairs = [(step.label, cheaper[step.evaluation].kernel.name) for step in steps]
-    notes = [f"cheaper at '{label}': {name}" for label, name in pairs]
-    return along_chains(program, lambda items: list(map(cheapest, items))), notes
+def _cheaper(operation: Operation) -> Operation | None:
+    kernel: Any = operation.kernel
+    cheaper, arguments = kernel.specialised(operation.arguments, _vanishes)
+    cheaper = cheaper.never_less(arguments, _span)
+    return None if cheaper is kernel else Operation(cheaper, arguments)
 
 
 def _vanishes(argument: Operand | ResultOf) -> bool:
-    return not isinstance(argument, ResultOf) and vanishes(argument)
+    if isinstance(argument, ResultOf):
+        return False
+    number = number_of(argument)
+    return vanishes(argument) if number is None else number == 0.0
 
 
 def _span(argument: Operand | ResultOf) -> tuple[float, float]:
-    return (-inf, inf) if isinstance(argument, ResultOf) else argument.span
+    if isinstance(argument, ResultOf):
+        return -inf, inf
+    number = number_of(argument)
+    return argument.span if number is None else (number, number)
 
 
 _KINDS = {
@@ -371,13 +189,14 @@ _EXTINCT = 0.01
 _LEAST = 1e-60
 
 
-class Constant(NamedTuple):
+@dataclass(eq=False)
+class Constant:
     """The numbers of a step, as its structure has them."""
 
     structure: Structure
     numbers: tuple[float, ...]
 
-    @property
+    @cached_property
     def lets_through(self) -> bool:
         """Whether no light is nearly extinguished by it."""
         first = self.rows()[0]
@@ -397,16 +216,16 @@ class Constant(NamedTuple):
         >>> Constant(SCALE, (0.5,)).then(Constant(SCALE, (0.5,))).numbers
         (0.25,)
         """
-        sorts = self.structure, later.structure
-        if sorts == (ROTATION, ROTATION):
+        one, other = self.structure.name, later.structure.name
+        if one == other == ROTATION.name:
             (c1, s1), (c2, s2) = self.numbers, later.numbers
             return Constant(ROTATION, (c1 * c2 - s1 * s2, s1 * c2 + c1 * s2))
-        if sorts == (BLOCK, BLOCK):
+        if one == other == BLOCK.name:
             return _unless_identity(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
-        for one, other in ((self, later), (later, self)):
-            if one.structure == SCALE and other.structure not in (ROTATION, JONES):
-                product = tuple(one.numbers[0] * number for number in other.numbers)
-                return _unless_identity(Constant(other.structure, product))
+        if SCALE.name in (one, other) and {one, other}.isdisjoint([ROTATION.name, JONES.name]):
+            scale, scaled = (self, later) if one == SCALE.name else (later, self)
+            product = tuple([scale.numbers[0] * number for number in scaled.numbers])
+            return _unless_identity(Constant(scaled.structure, product))
         return None
 
 
@@ -435,31 +254,31 @@ _MOST = 16
 """How many constants are multiplied, lest their roundings gather."""
 
 
-def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, list[str]]:
-    """Return a program whose neighbouring constants are one, in float64."""
-    known: dict[int | None, Constant] = {
-        place: Constant(evaluation.kernel.structure, numbers)
-        for place, numbers in enumerate(known_numbers(program)[1])
-        if numbers is not None
-        and (evaluation := program.evaluations[place]).presence is None
-        and evaluation.kernel.structure is not None
-    }
-    if not known:
-        return program, []
-    constants = [known.get(step.evaluation) for step in program.steps]
+def multiplied_constants(flow: Flow, *, matrices: bool) -> list[str]:
+    """Make neighbouring constants one, in float64."""
     notes: list[str] = []
+
+    def constant_of(item: Item) -> Constant | None:
+        structure = item.kernel.structure
+        if item.presence is not None or structure is None:
+            return None
+        numbers = flow.facts.outcome(item.operation)
+        return None if numbers is None else Constant(structure, numbers)
 
     def done_to(items: list[Item]) -> list[Item]:
         results: list[Item] = []
         run: list[tuple[Item, Constant]] = []
         for item in items:
-            constant = constants[item.light]
+            constant = item.constant
+            if constant is False:
+                constant = item.constant = constant_of(item)
             if constant is None:
-                results += as_one(run)
-                run = []
+                if run:
+                    results += as_one(run)
+                    run = []
                 results.append(item)
-            elif tuple(constant.numbers) == constant.structure.identity:
-                notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
+            elif constant.numbers == constant.structure.identity:
+                notes.append(f"{item.kernel.name} at '{item.label}' changes nothing")
             elif run and (both := run[-1][1].then(constant)):
                 run[-1] = _joined([run[-1][0], item], both, notes), both
             else:
@@ -468,8 +287,10 @@ def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, 
 
     def as_one(run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
+        if len(run) < 2:
+            return [item for item, _ in run]
         costs = [_KINDS[constant.structure.name][1] for _, constant in run]
-        dear = matrices and len(run) > 1 and sum(costs) > _KINDS[FULL.name][1]
+        dear = matrices and sum(costs) > _KINDS[FULL.name][1]
         if not (dear and all(constant.lets_through for _, constant in run)):
             return [item for item, _ in run]
         results: list[tuple[Item, Constant]] = []
@@ -481,58 +302,84 @@ def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, 
                 results.append((item, constant))
         return [item for item, _ in results]
 
-    return along_chains(program, done_to), notes
+    for node in flow.chains:
+        node.items = done_to(node.items)
+    return notes
 
 
 def _joined(items: Sequence[Item], constant: Constant, notes: list[str]) -> Item:
     """Return neighbours as one step, and note it."""
-    names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
+    names = [f"{item.kernel.name} at '{item.label}'" for item in items]
     notes.append(f"constant, and multiplied: {' and '.join(names)}")
     kernel = _KINDS[constant.structure.name][0]
     operation = Operation(kernel, tuple(map(Operand, constant.numbers)))
-    return items[-1]._replace(label=label_of(items), operation=operation)
+    return Item(label_of(items), operation, once=items[-1].once)
+
+
+_WORDS = 60
+"""How long the name of a step may become that is made of several."""
+
+
+def label_of(items: Sequence[Item]) -> str:
+    """Return the names of steps as one, the first and the last where they would be too long."""
+    names = [name for item in items for name in item.label.split(", ")]
+    whole = ", ".join(dict.fromkeys(names))
+    if len(whole) <= _WORDS:
+        return whole
+    return f"{names[0].split(' .. ')[0]} .. {names[-1].split(' .. ')[-1]}"
 
 
 _TURNS = (TURN, TURN_BACK)
 
 
-def joined_turns(program: Program, *, sums: bool) -> tuple[Program, list[str]]:
-    """Return a program whose neighbouring turns are one."""
+def joined_turns(flow: Flow, *, sums: bool) -> list[str]:
+    """Make neighbouring turns one."""
     notes: list[str] = []
-    steps = program.steps
-    turns = {place for place, e in enumerate(program.evaluations) if e.kernel in _TURNS}
-    second = [step for step in steps if step.evaluation in turns]
-    if turns.isdisjoint([steps[step.inputs[0]].evaluation for step in second]):
-        return program, notes
+    # Equal turns meet in many places.
+    known: dict[tuple[int, int, bool], tuple[Operation | None, Operation, Operation]] = {}
 
     def joined(items: list[Item]) -> list[Item]:
         results: list[Item] = []
+        after_turn = False
         for item in items:
-            both = results and _is_turn(item) and _is_turn(results[-1])
-            if both and len(results[-1].operation.arguments) < _MOST:
+            is_turn = _is_turn(item)
+            if is_turn and after_turn and len(results[-1].operation.arguments) < _MOST:
                 names = dict.fromkeys(f"'{turn.label}'" for turn in (results[-1], item))
                 notes.append(f"the turns at {' and '.join(names)} are one")
-                results[-1:] = _as_one(results[-1], item, sums=sums and item.once)
+                first, adds = results.pop(), sums and item.once
+                pair = first.operation, item.operation
+                key = id(pair[0]), id(pair[1]), adds
+                if (one := known.get(key)) is None:
+                    one = known[key] = _as_one(*pair, sums=adds), *pair
+                if one[0] is not None:
+                    results.append(Item(label_of([first, item]), one[0], once=item.once))
+                after_turn = bool(results) and _is_turn(results[-1])
             else:
                 results.append(item)
+                after_turn = is_turn
         return results
 
-    return along_chains(program, joined), notes
+    for node in flow.chains:
+        turns = [item.kernel in _TURNS for item in node.items]
+        if True in map(and_, turns, turns[1:]):
+            node.items = joined(node.items)
+    return notes
 
 
 def _is_turn(item: Item) -> bool:
-    known = item.presence is None and item.operation.kernel in _TURNS
-    return known and {type(argument) for argument in item.operation.arguments} == {Operand}
+    operation = item.operation
+    known = item.presence is None and operation.kernel in _TURNS
+    return known and all(type(argument) is Operand for argument in operation.arguments)
 
 
-def _as_one(first: Item, second: Item, *, sums: bool) -> list[Item]:
-    """Return two turns as one, or as none if they undo each other."""
-    angles = [*_angles(first), *_angles(second)]
-    numbers = [number_of(angle) if sums else None for angle in angles]
-    known = sum(number for number in numbers if number is not None)
-    left: list[Operand] = []
-    for angle in (a for a, number in zip(angles, numbers, strict=True) if number is None):
-        opposite = angle.negated().key()
+def _as_one(first: Operation, second: Operation, *, sums: bool) -> Operation | None:
+    """Return two turns as one, or None if they undo each other."""
+    known, left = 0.0, list[Operand]()
+    for angle in (*_angles(first), *_angles(second)):
+        if sums and (number := number_of(angle)) is not None:
+            known += number
+            continue
+        opposite = _opposite_key(angle)
         undone = [other for other in left if opposite is not None and other.key() == opposite]
         if undone:
             left.remove(undone[0])
@@ -540,12 +387,18 @@ def _as_one(first: Item, second: Item, *, sums: bool) -> list[Item]:
             left.append(angle)
     if known:
         left.append(Operand(known))
-    whole = second._replace(label=label_of([first, second]), operation=Operation(TURN, tuple(left)))
-    return [whole] if left else []
+    return Operation(TURN, tuple(left)) if left else None
 
 
-def _angles(item: Item) -> list[Operand]:
-    angles = item.operation.arguments
-    if item.operation.kernel is TURN_BACK:
+def _opposite_key(angle: Operand) -> Hashable:
+    value = angle.value
+    if type(value) is Parameter:
+        return value.name, -value.scale, -value.offset, angle.part
+    return angle.negated().key()
+
+
+def _angles(turn: Operation) -> list[Operand]:
+    angles = turn.arguments
+    if turn.kernel is TURN_BACK:
         return [angle.negated() for angle in angles]
     return [*angles]

@@ -4,19 +4,22 @@ from __future__ import annotations
 
 from functools import cached_property
 from heapq import heapify, heappop, heappush
-from itertools import chain
-from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, get_args
+from itertools import compress
+from operator import and_
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypeVar, get_args
 
 import networkx as nx
 
-from optipath.elements.own_element import OwnWays, couplings_of, own_ways
+from optipath.elements.element import alike
+from optipath.elements.own_element import OwnWays, couplings_of, is_own, own_ways
 from optipath.faults import Cure, Fault, listed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Hashable, Iterable, Iterator
 
     from optipath.elements.coupling import Coupling
     from optipath.elements.element import Element
+    from optipath.light.frame import Frame
 
 
 Link: TypeAlias = tuple[str, str, tuple[str, str]]
@@ -58,29 +61,92 @@ class Wiring:
         return dict(self.graph.nodes(data="element"))
 
     @cached_property
+    def _links(self) -> tuple[list[Link], dict[Link, Any], list[Link]]:
+        links, azimuths, taps = list[Link](), dict[Link, Any](), list[Link]()
+        for start, ends in self.graph.adjacency():
+            for end, keyed in ends.items():
+                for key, about in keyed.items():
+                    link = start, end, key
+                    links.append(link)
+                    if about["azimuth"] is not None:
+                        azimuths[link] = about["azimuth"]
+                    if about["tap"]:
+                        taps.append(link)
+        return sorted(links), azimuths, sorted(taps)
+
+    @property
+    def links(self) -> list[Link]:
+        """The links, in order of their names."""
+        return self._links[0]
+
+    @property
+    def azimuths(self) -> dict[Link, Any]:
+        """The turns that links say themselves."""
+        return self._links[1]
+
+    @property
+    def taps(self) -> list[Link]:
+        """The links that read the light of their port, and take nothing, in order of names."""
+        return self._links[2]
+
+    @cached_property
+    def turned(self) -> frozenset[str]:
+        """The nodes whose elements turn the links to them."""
+        turns = [(name, getattr(e, "azimuth", 0.0)) for name, e in self.elements.items()]
+        return frozenset([name for name, turn in turns if type(turn) is not float or turn])
+
+    def may_turn(self, link: Link) -> bool:
+        """Tell whether a link may turn frames: by its azimuth, or those in the world."""
+        start, end, _ = link
+        placed = self.placed
+        return end in self.turned or link in self.azimuths or start in placed or end in placed
+
+    @cached_property
+    def placed(self) -> frozenset[str]:
+        """The nodes with frames in the world, by their own values or given."""
+        return self.self_placed.union(self.framed)
+
+    @cached_property
     def self_placed(self) -> frozenset[str]:
         """The nodes whose elements have frames by their own values."""
         return frozenset([name for name, e in self.elements.items() if e.self_placed])
 
     @cached_property
+    def framed(self) -> dict[str, dict[str, Frame]]:
+        """The frames in the world of the ports of each node that has some."""
+        return {name: frames for name, frames in self.graph.nodes(data="frames") if frames}
+
+    @cached_property
     def couplings(self) -> dict[str, tuple[Coupling, ...]]:
         """The ways through the element of each node."""
-        # One element may stand in many places.
-        each = {id(element): element for element in self.elements.values()}
-        known = {key: couplings_of(element) for key, element in each.items()}
-        return {name: known[id(element)] for name, element in self.elements.items()}
+        known: dict[int, tuple[Coupling, ...]] = {}
+        results: dict[str, tuple[Coupling, ...]] = {}
+        for name, element in self.alike.items():
+            if (couplings := known.get(id(element))) is None:
+                couplings = known[id(element)] = couplings_of(element)
+            results[name] = couplings
+        return results
+
+    @cached_property
+    def alike(self) -> dict[str, Element]:
+        """For each node, the first element that is equal to its own."""
+        return alike(self.elements)
 
     def own_ways(self, method: str = "stable") -> list[OwnWays]:
         """Return the ways through elements of a user's own that are to be looked at."""
-        ways = self.couplings.items()
-        each = [own_ways(name, self.elements[name], several, method) for name, several in ways]
-        return [*chain.from_iterable(each)]
+        own = [(name, self.elements[name], self.couplings[name]) for name in self._own]
+        return [way for each in own for way in own_ways(*each, method)]
+
+    @cached_property
+    def _own(self) -> list[str]:
+        """The nodes whose elements are of a user's own classes."""
+        return [name for name, element in self.elements.items() if is_own(type(element))]
 
     @cached_property
     def links_to(self) -> dict[Port, list[Link]]:
         """The links that arrive at each in-port, in order of their names."""
         results: dict[Port, list[Link]] = {}
-        for link in sorted(self.graph.edges(keys=True)):
+        for link in self.links:
             results.setdefault((link[1], link[2][1]), []).append(link)
         return results
 
@@ -88,47 +154,76 @@ class Wiring:
     def links_from(self) -> dict[Port, list[Link]]:
         """The links that take the light of each out-port, in order of their names; no taps."""
         results: dict[Port, list[Link]] = {}
-        for start, end, key, tap in sorted(self.graph.edges(keys=True, data="tap")):
-            if not tap:
-                results.setdefault((start, key[0]), []).append((start, end, key))
+        taps = {*self.taps}
+        for link in self.links:
+            if not taps or link not in taps:
+                results.setdefault((link[0], link[2][0]), []).append(link)
         return results
 
     @cached_property
-    def taps(self) -> list[Link]:
-        """The links that read the light of their port, and take nothing, in order of names."""
-        links = self.graph.edges(keys=True, data="tap")
-        return sorted((start, end, key) for start, end, key, tap in links if tap)
+    def _places(self) -> dict[str, tuple[int, dict[str, int]]]:
+        """Of each node, the number of its first port, and the places of its ports from there."""
+        known: dict[Any, dict[str, int]] = {}
+        results: dict[str, tuple[int, dict[str, int]]] = {}
+        first = 0
+        for name in sorted(self.elements):
+            element = self.elements[name]
+            ports = (*element.inputs, *element.outputs)
+            if (places := known.get(ports)) is None:
+                places = known[ports] = {port: at for at, port in enumerate(sorted(ports))}
+            results[name] = first, places
+            first += len(places)
+        return results
 
     @cached_property
-    def ports(self) -> Ways:
-        """The ways from port to port: links, and couplings inside of elements."""
-        every = [(name, (*e.inputs, *e.outputs)) for name, e in self.elements.items()]
-        ways: Ways = {(name, port): [] for name, ports in every for port in ports}
+    def ports(self) -> list[Port]:
+        """All ports, in order of their names; their places are their numbers."""
+        return [(name, port) for name, (_, places) in self._places.items() for port in places]
+
+    def number(self, name: str, port: str) -> int:
+        """Return the number of a port."""
+        first, places = self._places[name]
+        return first + places[port]
+
+    @cached_property
+    def ways(self) -> list[list[int]]:
+        """To which ports light goes on from each: by links, and by couplings inside of elements."""
+        ways: list[list[int]] = [[] for _ in self.ports]
+        places = self._places
         for name, couplings in self.couplings.items():
+            first, at = places[name]
             for coupling in couplings:
                 if coupling.enters is not None:
-                    ways[name, coupling.enters].append((name, coupling.leaves))
-        for start, end, (leaves, enters) in self.graph.edges(keys=True):
-            ways[start, leaves].append((end, enters))
+                    ways[first + at[coupling.enters]].append(first + at[coupling.leaves])
+        for start, end, (leaves, enters) in self.links:
+            (first, at), (later, there) = places[start], places[end]
+            ways[first + at[leaves]].append(later + there[enters])
         # A link that carries no light is a fault of its own, and not one of reach as well.
         for start, _, (leaves, _) in self.dark_links:
             for enters in self.elements[start].inputs:
-                ways[start, enters].append((start, leaves))
+                ways[self.number(start, enters)].append(self.number(start, leaves))
         return ways
+
+    def _named(self, *, taps: bool) -> Ways:
+        """Return the ways from port to port by their names, with those of taps or without."""
+        ports, left_out = self.ports, set[tuple[int, int]]()
+        for start, end, (leaves, enters) in () if taps else self.taps:
+            left_out.add((self.number(start, leaves), self.number(end, enters)))
+        return {
+            ports[at]: [ports[to] for to in onwards if (at, to) not in left_out]
+            for at, onwards in enumerate(self.ways)
+        }
 
     @cached_property
     def untapped(self) -> Ways:
         """The ways from port to port, those of taps left out."""
-        ways = dict(self.ports)
-        for start, end, (leaves, enters) in self.taps:
-            ways[start, leaves] = [port for port in ways[start, leaves] if port != (end, enters)]
-        return ways
+        return self._named(taps=False)
 
     @cached_property
     def starts(self) -> list[Port]:
         """The ports where light begins."""
-        pairs = [(name, way) for name, ways in self.couplings.items() for way in ways]
-        return [(name, way.leaves) for name, way in pairs if way.enters is None]
+        ways = self.couplings.items()
+        return [(name, c.leaves) for name, several in ways for c in several if c.enters is None]
 
     @cached_property
     def ends(self) -> list[Port]:
@@ -136,21 +231,66 @@ class Wiring:
         ends = [(name, e.inputs) for name, e in self.elements.items() if not e.outputs]
         return [(name, port) for name, ports in ends for port in ports]
 
-    @cached_property
-    def lit(self) -> set[Port]:
-        """The ports that light reaches."""
-        return reached(self.ports, self.starts)
+    def is_lit(self, name: str, port: str) -> bool:
+        """Tell whether light reaches a port."""
+        return bool(self._reach[0][self.number(name, port)])
+
+    @property
+    def lit_nodes(self) -> set[str]:
+        """The nodes that light reaches."""
+        return {name for name, _ in compress(self.ports, self._reach[0])}
+
+    @property
+    def useful_nodes(self) -> set[str]:
+        """The nodes from which light reaches an end."""
+        return {name for name, _ in compress(self.ports, self._reach[1])}
 
     @cached_property
-    def useful(self) -> set[Port]:
-        """The ports from which light reaches an end."""
-        return reached(backwards(self.ports), self.ends)
+    def _in_line(self) -> list[int]:
+        """All ports in order, without those of cycles, and those that a cycle leads to."""
+        return _in_order(self.ways)
+
+    @cached_property
+    def _reach(self) -> tuple[bytearray, bytearray]:
+        """Of each port, whether light reaches it, and whether it reaches an end from there."""
+        ways, order = self.ways, self._in_line
+        lit, useful = bytearray(len(ways)), bytearray(len(ways))
+        for ports, signs in ((self.starts, lit), (self.ends, useful)):
+            for port in ports:
+                signs[self.number(*port)] = True
+        if len(order) < len(ways):
+            there = dict(enumerate(ways))
+            for onwards, signs in ((there, lit), (backwards(there), useful)):
+                for at in reached(onwards, [*compress(there, signs)]):
+                    signs[at] = True
+            return lit, useful
+        for at in order:
+            if lit[at]:
+                for later in ways[at]:
+                    lit[later] = True
+        for at in reversed(order):
+            for later in ways[at]:
+                if useful[later]:
+                    useful[at] = True
+        return lit, useful
 
     @cached_property
     def stretches(self) -> list[Stretch]:
-        """The ports that light passes (from a start to an end) in order; loops together."""
-        wanted = self.lit if self.keep == "all" else self.lit & self.useful
-        return stretches(among(self.ports, wanted))
+        """The ports that light passes (from a start to an end) in order; loops together.
+
+        Without loops, one stretch has them all.
+        """
+        lit, useful = self._reach
+        passed = lit if self.keep == "all" else bytes(map(and_, lit, useful))
+        if len(self._in_line) == len(self.ways):
+            ports = self.ports
+            return [Stretch(tuple([ports[at] for at in self._in_line if passed[at]]))]
+        return stretches(among(self._named(taps=True), {*compress(self.ports, passed)}))
+
+    @property
+    def cycles(self) -> list[set[Port]]:
+        """The ports of each cycle, those of taps left out, whether light gets there or not."""
+        return [] if len(self._in_line) == len(self.ways) else cycles(self.untapped)
 
     @cached_property
     def order(self) -> dict[Port, int]:
@@ -162,13 +302,14 @@ class Wiring:
     def dark_links(self) -> list[Link]:
         """The links from out-ports that no coupling gives light to."""
         lit = {(name, c.leaves) for name, ways in self.couplings.items() for c in ways}
-        return [link for link in self.graph.edges(keys=True) if (link[0], link[2][0]) not in lit]
+        return [link for link in self.links if (link[0], link[2][0]) not in lit]
 
     @cached_property
     def outlets(self) -> tuple[str, ...]:
         """The out-ports whose light no link takes: it leaves the path, read by taps or not."""
+        taken = self.links_from
         ports = [(name, port) for name, e in self.elements.items() for port in e.outputs]
-        return tuple(sorted(".".join(port) for port in ports if port not in self.links_from))
+        return tuple(sorted([".".join(port) for port in ports if port not in taken]))
 
 
 Port: TypeAlias = tuple[str, str]
@@ -176,6 +317,10 @@ Port: TypeAlias = tuple[str, str]
 
 Ways: TypeAlias = dict[Port, list[Port]]
 """To which ports light goes on from each."""
+
+
+P = TypeVar("P", bound="Hashable")
+"""A port, or its number."""
 
 
 class Stretch(NamedTuple):
@@ -201,15 +346,19 @@ def stretches(ways: Ways) -> list[Stretch]:
     return [loops.get(port) or Stretch((port,)) for port in _in_order(onwards)]
 
 
-def _in_order(ways: Ways) -> list[Port]:
-    """Return ports behind those that lead to them, ties by name; none that a loop leads to."""
-    before = dict.fromkeys(ways, 0)
-    for onwards in ways.values():
+def _in_order(ways: Any) -> list[Any]:
+    """Return ports behind those that lead to them, ties by name; none that a loop leads to.
+
+    They are keys, or numbers in order of their names.
+    """
+    numbered = isinstance(ways, list)
+    before: Any = [0] * len(ways) if numbered else dict.fromkeys(ways, 0)
+    for onwards in ways if numbered else ways.values():
         for later in onwards:
             before[later] += 1
-    ready = [port for port, count in before.items() if not count]
+    ready = [port for port in (range(len(ways)) if numbered else ways) if not before[port]]
     heapify(ready)
-    order: list[Port] = []
+    order: list[Any] = []
     while ready:
         order.append(heappop(ready))
         for later in ways[order[-1]]:
@@ -221,22 +370,21 @@ def _in_order(ways: Ways) -> list[Port]:
 
 def cycles(ways: Ways) -> list[set[Port]]:
     """Return the ports of each loop: those that light can reach from each other."""
-    core = among(ways, ways.keys() - set(_in_order(ways)))
-    if not core:
+    if not (core := among(ways, ways.keys() - set(_in_order(ways)))):
         return []
     return [ports for ports in nx.strongly_connected_components(nx.DiGraph(core)) if len(ports) > 1]
 
 
-def backwards(ways: Ways) -> Ways:
+def backwards(ways: dict[P, list[P]]) -> dict[P, list[P]]:
     """Return from which ports light comes to each."""
-    result: Ways = {port: [] for port in ways}
+    result: dict[P, list[P]] = {port: [] for port in ways}
     for port, onwards in ways.items():
         for later in onwards:
             result[later].append(port)
     return result
 
 
-def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
+def reached(ways: dict[P, list[P]], starts: Iterable[P]) -> set[P]:
     """Return the ports that light reaches."""
     results = set(starts)
     waiting = list(results)

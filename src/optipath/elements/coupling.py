@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from optipath.values.domains import Domain
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(eq=False, slots=True)  # Not frozen, which takes thrice the time to make.
 class Coupling:
     """One way through an element: from an in-port to an out-port, in order of travel.
 

@@ -32,9 +32,10 @@ from optipath.values.use import (
     faults_of,
     make_sound,
 )
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Hashable, Iterable, Iterator, Mapping
 
     from optipath.elements.coupling import Coupling
     from optipath.elements.vertex_place import VertexFrame
@@ -82,7 +83,20 @@ class NamedElement(Chainable):
     element: Any
 
 
+def alike(elements: Mapping[str, Element]) -> dict[str, Element]:
+    """Return for each name the first of the elements that are equal to its own."""
+    known: dict[Hashable, Element] = {}
+    results: dict[str, Element] = {}
+    for name, element in elements.items():
+        key = id(element) if id(element) in known else element.key
+        results[name] = known.setdefault(key, element)
+    return results
+
+
 E = TypeVar("E", bound="Element")
+
+_PLAIN = frozenset({float, complex, bool, str, type(None)})
+_HASHED = frozenset({float, bool, str, type(None), Parameter, Wavelength})
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
@@ -154,6 +168,7 @@ class Element(Chainable):
     _ports_back: ClassVar[dict[str, str]] = {}
     _kernel: ClassVar[Kernel | None] = None
     _is_sound: ClassVar[bool] = False  # Whether the values have been checked, and are allowed.
+    _is_plain: ClassVar[bool] = False  # Whether they are, and each is one number or word.
 
     __array_ufunc__ = None  # NumPy's arrays leave products to it.
 
@@ -172,8 +187,22 @@ class Element(Chainable):
     def __post_init__(self) -> None:
         """Keep numbers for texts, read-only arrays, parameters in a unit; refuse all faults."""
         of_fields = type(self).quantities is Element.quantities
-        if make_sound(self, self.domains(), self.quantities, of_fields=of_fields):
-            vars(self)["_is_sound"] = True
+        domains, values = self.domains(), vars(self)
+        if make_sound(self, domains, self.quantities, of_fields=of_fields):
+            values["_is_sound"] = True
+            values["_is_plain"] = all(type(values[name]) in _PLAIN for name in domains)
+
+    @property
+    def key(self) -> Hashable:
+        """What equal elements share; of those with arrays, or not checked yet, each has its own."""
+        values = vars(self)
+        key: list[Any] = [type(self)]
+        for field in self.domains() if self._is_sound else ():
+            value = values[field]
+            if type(value) not in _HASHED:
+                return id(self)
+            key.append(str(value) if value == 0.0 else value)  # 0 is not -0.
+        return tuple(key) if self._is_sound else id(self)
 
     def named(self, name: str) -> NamedElement:
         """Return the element with the name of its node in a chain.
@@ -227,6 +256,8 @@ class Element(Chainable):
 
     def uses(self, owner: str) -> list[Use]:
         """Return the numbers that the values are made of, each with what it must be."""
+        if self._is_plain:
+            return []  # Nothing of it is given later, or has a shape.
         sound = self._is_sound
         return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
 
@@ -466,7 +497,7 @@ class Element(Chainable):
 def with_values(element: E, **values: Any) -> E:
     """Return an element with other values, of which no degrees are asked about again."""
     stored = {name: read_only(value, widened=False) for name, value in values.items()}
-    result = changed(element, _is_sound=False, **stored)
+    result = changed(element, _is_sound=False, _is_plain=False, **stored)
     faults = result.faults(element.kind or type(element).__name__)
     PathError.raise_for(f"on the way back, {fault}" for fault in faults)
     return result

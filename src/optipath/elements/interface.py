@@ -111,10 +111,10 @@ class Interface(BoundaryElement, kind="interface"):
         first, second = [numbers_of(index, INDEX) for index in (self.outside, self.index)]
         angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
         before = self._index_of_angle(angle)
-        behind = (second, first) if before else (first, second)
         reflect, transmit = [_between(f, first, second, *before, *angle) for f in _FROM_FRONT]
-        reflect_back = _between(_FROM_FRONT[0], *behind, *before, *angle)
-        through_back = transmit
+        reflect_back, through_back = reflect, transmit
+        if before:
+            reflect_back = _between(_FROM_FRONT[0], second, first, *before, *angle)
         if not (vanishes(first[1]) and vanishes(second[1])):
             numbers = (*first, *second, *before, *angle)
             through_back = Operation(TRANSMISSION_FROM_BEHIND, numbers)

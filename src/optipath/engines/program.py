@@ -42,8 +42,7 @@ class Result(NamedTuple):
     place: int
 
 
-@dataclass(frozen=True, slots=True)
-class Evaluation:
+class Evaluation(NamedTuple):
     """A kernel called on operands, and on what other evaluations come to."""
 
     kernel: Kernel
@@ -51,8 +50,7 @@ class Evaluation:
     presence: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(NamedTuple):
     """Makes one light: the sum of its inputs, changed by an evaluation."""
 
     label: str
@@ -151,7 +149,7 @@ class Program:
         reads = {reading.components for reading in self.readings.values()}
         if self.loops or not self.counts or max(self.counts) > 2 or reads != {1}:
             return None
-        powers = [replace(e, kernel=e.kernel.powers or e.kernel) for e in self.evaluations]
+        powers = [e._replace(kernel=e.kernel.powers or e.kernel) for e in self.evaluations]
         return replace(self, evaluations=tuple(powers))
 
     @cached_property

@@ -66,6 +66,11 @@ class Kernel:
         return function
 
     @cached_property
+    def has_cheaper(self) -> bool:
+        """Whether another kernel is cheaper for some arguments."""
+        return self.without is not None or self.denser is not None
+
+    @cached_property
     def of_library(self) -> bool:
         """Whether it comes with the library, so that nothing it raises is a user's doing."""
         return is_defined_in("optipath.", self.factory)
@@ -115,9 +120,10 @@ class KernelFamily:
 
     def by_method(self, method: str) -> Kernel:
         """Return the kernel of a method."""
-        if faults := unknown("method", method, self.methods):
-            raise ComposerError(*faults)
-        return self.methods[method]
+        try:
+            return self.methods[method]
+        except (KeyError, TypeError):
+            raise ComposerError(*unknown("method", method, self.methods)) from None
 
 
 def sloped(values: Factory, slopes: Factory, xp: Primitives) -> KernelFunction:

@@ -13,7 +13,7 @@ import numpy as np
 T = TypeVar("T")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Primitives:
     """The functions a kernel may call, which ``mueller_rows`` is given as ``xp``.
 

@@ -121,8 +121,8 @@ class _Walk:
             if stretch.junctions:
                 self._go_round(stretch)
             else:
-                (port,) = stretch.ports
-                self.at[port] = added(self._lights(port))
+                for port in stretch.ports:
+                    self.at[port] = added(self._lights(port))
         return {name: self._read(name, _stokes(self.at[name, port])) for name, port in ends}
 
     def _go_round(self, loop: Stretch) -> None:

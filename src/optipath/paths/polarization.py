@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.composer import Composer
+from optipath.engines.draft import Draft
 from optipath.engines.program import Evaluation
 from optipath.kernels.kernel import Kernel
 from optipath.plan.answers import only
@@ -150,7 +151,11 @@ def _over(difference: Any, scalar: Any) -> npt.NDArray[Any]:
 def _intensity(plan: Plan, program: Program, end: str, parameters: Mapping[str, Any]) -> Any:
     """Return the intensity at an end of a program that stands in for that of a plan."""
     reduction = replace(plan.reduction, program=program, unreduced=False)
-    return replace(plan, reduction=reduction, whole=program).run_all(**parameters)[end].intensity
+    return (
+        replace(plan, reduction=reduction, draft=Draft.of(program))
+        .run_all(**parameters)[end]
+        .intensity
+    )
 
 
 def polarising(program: Program) -> dict[str, list[int]]:
@@ -171,7 +176,7 @@ def without_polarization(program: Program, steps: Iterable[int]) -> Program:
     for light in steps:
         step = changed[light]
         old = evaluations[step.evaluation or 0]
-        changed[light] = replace(step, evaluation=len(evaluations))
+        changed[light] = step._replace(evaluation=len(evaluations))
         evaluations.append(Evaluation(_unpolarising(old.kernel), old.arguments, old.presence))
     return replace(program, evaluations=tuple(evaluations), steps=tuple(changed))
 

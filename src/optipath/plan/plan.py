@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from optipath.elements.own_element import OwnWays
+    from optipath.engines.draft import Draft
     from optipath.engines.program import Program, Reduction, Tolerance
     from optipath.plan.certificate import Certificate
     from optipath.plan.explanation import Explanation
@@ -38,8 +39,8 @@ class Plan:
 
     Attributes
     ----------
-    whole : Program
-        The path as it stands.
+    draft : Draft
+        The path as it stands, which becomes the program `whole` where that is needed.
     reduction : Reduction
         What is left of it for what the detectors read.
     inputs : Inputs
@@ -63,7 +64,7 @@ class Plan:
         How many threads share a large batch.
     """
 
-    whole: Program
+    draft: Draft
     reduction: Reduction
     inputs: Inputs
     outlets: tuple[str, ...]
@@ -76,6 +77,11 @@ class Plan:
     instead: Tolerance | None = None
     tolerance: float | None = None
     own_ways: tuple[OwnWays, ...] = ()
+
+    @property
+    def whole(self) -> Program:
+        """The path as it stands, every step of it."""
+        return self.draft.program
 
     @property
     def program(self) -> Program:

@@ -235,8 +235,10 @@ class Parameter:
 
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
-        plain, others = [[vars(p)[name] for name in _SAID] for p in (self, other)]
-        return self is other or (plain == others and same(self.default, other.default))
+        mine, its = vars(self), vars(other)
+        return self is other or (
+            all(mine[name] == its[name] for name in _SAID) and same(self.default, other.default)
+        )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):

@@ -66,6 +66,10 @@ class Structure:
     jones: JonesAction | None = None
     unpolarising: Callable[[Numbers], Numbers] | None = None
 
+    def __hash__(self) -> int:
+        # As of kernels: what else belongs to a name is compared where names are equal.
+        return hash(self.name)
+
     def known_rows(self, numbers: Sequence[float | None]) -> tuple[tuple[float | None, ...], ...]:
         """Return what is known of a matrix, for what is known of its numbers."""
         several = numbers or (None,) * len(self.identity)
