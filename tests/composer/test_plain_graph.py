@@ -101,6 +101,17 @@ def test_what_is_wrong_with_a_graph_is_told_by_node_or_edge_and_attribute(change
     assert message in fault
 
 
+def test_nodes_named_by_numbers_are_told_once():
+    graph = nx.path_graph(1500, create_using=nx.DiGraph)
+    nx.set_node_attributes(graph, op.Polarizer(), "element")
+    (fault,) = faults_of(graph)
+    assert fault == (
+        "node name 0, as 1,499 others, must be a text without a dot; rename it, "
+        "nx.relabel_nodes(graph, str)"
+    )
+    assert len(op.PathGraph.from_networkx(nx.relabel_nodes(graph, str))) == 1500
+
+
 def test_all_that_is_wrong_is_told_at_once():
     graph = malus()
     for change in (renamed("lamp", "elemnt"), in_edge(azimuht=1), in_node(frames=2)):

@@ -55,11 +55,11 @@ def completed(graph: Any) -> nx.MultiDiGraph:
         raise PathError(f"a path is made of a networkx graph, not {shown(graph)}; {_CURE}")
     if not graph.is_directed():
         raise PathError(f"a networkx {type(graph).__name__} has no directions; {_CURE}")
-    faults = [*_misspelt("the graph", graph.graph, _WHOLE)]
+    faults = [*_misspelt("the graph", graph.graph, _WHOLE), *_name_faults([*graph])]
     result = nx.MultiDiGraph()
     result.graph.update({**graph.graph, **whole(graph.graph, faults)})
     for name, about in graph.nodes.items():
-        if len(about) > 1 or not _is_name(name) or not isinstance(about.get("element"), Element):
+        if len(about) > 1 or not isinstance(about.get("element"), Element):
             faults += _node_faults(name, about)
         given = about.get("frames")
         frames = dict(given) if isinstance(given, Mapping) else {}
@@ -128,8 +128,16 @@ def frames_faults(name: str, element: Element, frames: Any) -> Iterator[str]:
             yield f"frames of '{name}': port '{name}.{port}' does not exist{near}"
 
 
-def _is_name(name: Any) -> bool:
-    return isinstance(name, str) and name != "" and "." not in name
+def _name_faults(names: list[Any]) -> Iterator[str]:
+    """Yield what is wrong with the names of nodes; of numbers, as networkx has them, at once."""
+    must = "must be a text without a dot; rename it, nx.relabel_nodes(graph, {})".format
+    if others := [name for name in names if not isinstance(name, str)]:
+        more = f", as {len(others) - 1:,} others," if len(others) > 1 else ""
+        yield f"node name {shown(others[0])}{more} {must('str')}"
+    for name in names:
+        if isinstance(name, str) and (not name or "." in name):
+            other = name.replace(".", "-") or "lamp"
+            yield f"node name {shown(name)} {must(f'{{{shown(name)}: {shown(other)}}}')}"
 
 
 def _is_unset(value: Any) -> bool:
@@ -147,11 +155,6 @@ def _said(about: Mapping[Any, Any], known: Collection[str]) -> dict[Any, Any]:
 
 def _node_faults(name: Any, about: Mapping[Any, Any]) -> Iterator[str]:
     """Yield what is wrong with a node, a sentence each."""
-    if not _is_name(name):
-        text, must = shown(name), "must be a text without a dot"
-        other = text.strip("'").replace(".", "-") or "lamp"
-        cure = f"{{{text}: '{other}'}}" if "." in text or text == "''" else "str"
-        yield f"node name {text} {must}; rename it, nx.relabel_nodes(graph, {cure})"
     misspelt = [*_misspelt(f"node {shown(name)}", about, _NODE)]
     yield from misspelt
     element, frames = about.get("element"), about.get("frames")

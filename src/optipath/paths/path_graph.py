@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
 
 import networkx as nx
 
-from optipath.composer.composer import Composer, checked
+from optipath.composer.composer import Composer, checked, put_off
 from optipath.composer.plain_graph import completed, whole
 from optipath.composer.port_frames import PortFrames
 from optipath.composer.wiring import KEEPABLE
@@ -126,7 +126,8 @@ class PathGraph(GraphFace):
         >>> op.PathGraph.from_networkx(graph)
         <PathGraph: lamp >> filter >> eye>
         """
-        own = completed(graph)
+        with put_off():
+            own = completed(graph)
         path = cls(own.graph.pop("description"), own.graph.pop("cases"))
         path._graph, own.graph["choices"] = own, dict(own.graph["choices"])
         PathError.raise_for(
