@@ -190,8 +190,9 @@ def _add_links(graph: nx.DiGraph, result: nx.MultiDiGraph, faults: list[str]) ->
     for *edge, about in graph.edges(data=True, **{"keys": True} if several else {}):
         start, end = edge[:2]
         leaves, enters = about.get("out_port"), about.get("in_port")
-        if leaves is None is enters and several and _are_texts(edge[2]):
-            leaves, enters = edge[2]  # As the graph of a `PathGraph` has them.
+        key = edge[2] if several else None
+        if leaves is None is enters and type(key) is tuple and [*map(type, key)] == [str, str]:
+            leaves, enters = key  # As the graph of a `PathGraph` has them.
         out_port = _port_of(elements.get(start), edge, leaves, faults, out=True)
         in_port = _port_of(elements.get(end), edge, enters, faults, out=False)
         link = start, end, (out_port, in_port)
@@ -201,10 +202,6 @@ def _add_links(graph: nx.DiGraph, result: nx.MultiDiGraph, faults: list[str]) ->
             result.add_edge(*link, azimuth=None, tap=False)
         else:
             result.add_edges_from([(*link, _others(link, edge, about, faults))])
-
-
-def _are_texts(key: Any) -> bool:
-    return isinstance(key, tuple) and len(key) == 2 and all(isinstance(one, str) for one in key)
 
 
 def _others(
