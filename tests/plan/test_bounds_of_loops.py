@@ -5,6 +5,9 @@ import warnings
 import numpy as np
 import pytest
 
+import amplifying
+import lossless
+import nearly_closed
 import optipath as op
 from random_matrices import jones, of_jones, unit_vectors
 from random_paths import Draw
@@ -104,6 +107,22 @@ def test_no_certificate_of_a_path_with_loops_is_violated(seed):
         assert np.all(light.intensity <= found.upper * found.scalar * (1.0 + 1e-13))
 
 
+@pytest.mark.filterwarnings("ignore::optipath.errors.LoopWarning")
+@rows("drawn", [lossless.networks, nearly_closed.networks, amplifying.networks])
+def test_no_certificate_of_a_network_out_of_which_little_light_gets_is_violated(drawn):
+    for network in drawn(25):
+        plan = op.Composer(engine="numpy").compose(network.path)
+        try:
+            lights = plan.run_all()
+        except op.errors.ParameterError:
+            continue  # Light gains there.
+        for name, light in lights.items():
+            found = plan.certificate(name)
+            assert np.isfinite(found.scalar)
+            assert found.lower * found.scalar <= light.intensity * (1.0 + 1e-13)
+            assert light.intensity <= found.upper * found.scalar * (1.0 + 1e-13)
+
+
 def cavity(k=2.0):
     """Light that goes to and fro between two mirrors, one of which is turned."""
     mirror = op.Interface(op.Material(0.2, k), op.Parameter("b"), azimuth=op.Parameter("turn"))
@@ -168,8 +187,8 @@ def test_light_that_hardly_leaves_a_loop_has_wider_bounds_and_such_that_stays_no
     path = wired(closed, f"{links}, split.transmitted -> eye", loops="sum")
     with pytest.raises(op.errors.ParameterError, match="never fades"):
         path.compose().certificate()
-    lossless = {**ring_of, "split": op.PolarizingBeamSplitter(), "dim": op.Rotator(0.2)}
-    path = wired(lossless, f"{links}, split.transmitted -> eye", loops="sum")
+    divided = {**ring_of, "split": op.PolarizingBeamSplitter(), "dim": op.Rotator(0.2)}
+    path = wired(divided, f"{links}, split.transmitted -> eye", loops="sum")
     found = path.compose().certificate()
     assert (found.lower, found.upper) == (0.0, np.inf)
     assert op.Composer(tolerance=0.5).compose(path).run() == path.trace()

@@ -13,7 +13,6 @@ from optipath.errors import OptipathError
 from optipath.faults import shown
 from optipath.kernels.catalog import PLAIN_TURN, TURN
 from optipath.light.frame import Frame
-from optipath.values.agreement import first_faults
 from optipath.values.arrays import broadcast_fault
 from optipath.values.operands import Operand, Operation, operand_of
 from optipath.values.parameters import Parameter
@@ -59,7 +58,7 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
         if np.all(c == 1.0) and np.all(s == 0.0):
             return None
         return Operation(PLAIN_TURN, (Operand(c), Operand(s)))
-    if wiring.self_placed and (beside := _beside_vertex(wiring, link)):
+    if wiring.framed and wiring.self_placed and (beside := _beside_vertex(wiring, link)):
         frame, vertex = beside
         return vertex.turn_to(frame, back=arriving is not None)
     azimuth = azimuth_of(wiring, link)
@@ -84,14 +83,15 @@ def _beside_vertex(wiring: Wiring, link: Link) -> tuple[Frame, VertexFrame] | No
 
 
 def along_legs(wiring: Wiring) -> Iterator[AlongLeg]:
-    """Yield what must fit of world frames and of vertices next to them."""
+    """Yield what must fit of world frames and of vertices next to them, once for each element."""
     if not wiring.self_placed or not wiring.framed:
         return
-    for link in wiring.links:
+    entered = set()
+    for link in sorted(wiring.links, key=lambda at: at[1] in wiring.self_placed):
         masks = any(getattr(wiring.elements[end], "bad", "") == "mask" for end in link[:2])
-        if not masks and (beside := _beside_vertex(wiring, link)):
-            enters = frame_at(wiring, link[0], link[2][0]) is None
-            yield AlongLeg.of(link_text(link), *beside, enters=enters)
+        if link[0] not in entered and not masks and (beside := _beside_vertex(wiring, link)):
+            entered.add(link[1])
+            yield AlongLeg.of(link_text(link), *beside)
 
 
 def placement_faults(wiring: Wiring) -> list[str]:
@@ -110,7 +110,7 @@ def placement_faults(wiring: Wiring) -> list[str]:
             if element.merges and frame_at(wiring, name, "in") is None:
                 results += _meeting_faults(wiring, name)
     legs = [] if results else [law for law in along_legs(wiring) if not law.is_open]
-    return [*results, *first_faults(legs), *_between_faults(wiring)]
+    return [*results, *filter(None, [law.fault() for law in legs]), *_between_faults(wiring)]
 
 
 def _self_placed_fault(wiring: Wiring, link: Link) -> str:

@@ -428,24 +428,15 @@ class AlongLeg(Agreement):
     """
 
     link: str
-    enters: bool
     leg: Operation = field(compare=False)
 
     shows_in_light = True
 
     @classmethod
-    def of(cls, link: str, frame: Frame, vertex: VertexFrame, *, enters: bool) -> AlongLeg:
-        """Return it for the frame that light enters, or leaves, by a link, and the vertex."""
+    def of(cls, link: str, frame: Frame, vertex: VertexFrame) -> AlongLeg:
+        """Return it for the frame on one side of a link and the vertex on the other."""
         z = (Operand(frame.z, place, (3,)) for place in range(3))
-        return cls((*z, *vertex.axes.operands()), link, enters, vertex.axes)
-
-    @property
-    def spoils(self) -> tuple[str, ...]:
-        return (str(id(self.operands[0].value)),) if self.enters else ()
-
-    @property
-    def rests_on(self) -> tuple[str, ...]:
-        return () if self.enters else (str(id(self.operands[0].value)),)
+        return cls((*z, *vertex.axes.operands()), link, vertex.axes)
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
         off = minus(numbers[:3], self._along(xp, numbers))

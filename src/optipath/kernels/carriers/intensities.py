@@ -222,9 +222,13 @@ class BoundsCarrier(Carrier):
             place, excess = places[junction], xp.maximum(excess, light.excess)
             given[place : place + len(_PARTS)] = self._begun(light)
         found = system.solved(given)
-        parts = [*enumerate(system.pivots)]
-        most = [pivot for place, pivot in parts if place % len(_PARTS) in (1, 2)]
-        least = [pivot for place, pivot in parts if place % len(_PARTS) not in (1, 2)]
+        # What no light ever gets to may keep all of it.
+        pivots = [
+            1.0 if is_zero(number) else xp.where(number == 0.0, 1.0, pivot)
+            for number, pivot in zip(found, system.pivots, strict=True)
+        ]
+        most = [pivot for place, pivot in enumerate(pivots) if place % len(_PARTS) in (1, 2)]
+        least = [pivot for place, pivot in enumerate(pivots) if place % len(_PARTS) not in (1, 2)]
         fades, bounded = (reduce(xp.minimum, pivots) > 0.0 for pivots in (least, most))
         # Each division by what hardly comes back enlarges roundings.
         sizes = [xp.where(bounded, pivot, 1.0) for pivot in most]
