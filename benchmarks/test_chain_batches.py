@@ -61,3 +61,12 @@ def test_a_path_of_its_own_for_new_points(timed, chains):
         finished(op.Composer(engine="numba").compose(path_of(chains)).run().stokes)
 
     timed.pedantic(light, rounds=3, warmup_rounds=1)
+
+
+@needs_numba
+def test_new_chains_given_to_a_plan(timed, chains):
+    parts = {name: op.Parameter(name) for name in chains}
+    path = op.path_from_vertices(materials=PALETTE, bad="mask", count=8, **parts)
+    plan = op.Composer(engine="numba").compose(path)
+    finished(plan.run(**chains).stokes)
+    timed(lambda: finished(plan.run(**chains).stokes))

@@ -149,6 +149,14 @@ water: op.Element = op.RefractingVertex(1.33, down, place=1, count=1)
 ended = op.path_from_vertices(
     np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
 )
+later = op.path_from_vertices(
+    op.Parameter("points"),
+    [1.5, 1.0],
+    ids=op.Parameter("ids"),
+    events=op.Parameter("events"),
+    lengths=op.Parameter("lengths"),
+    count=2,
+)
 corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)
 lamp_spectrum: op.Spectrum = 2 * op.Spectrum.black_body(2856) + op.Spectrum.line("633 nm", 0.1)
 measured: op.Spectrum = op.Spectrum.sampled(["4e-7 m", "5e-7 m"], [1.0, 2.0], outside=0.0, name="x")

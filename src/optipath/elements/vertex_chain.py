@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, get_args
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -13,10 +14,17 @@ from optipath.kernels.primitives import NUMPY
 from optipath.kernels.trigonometry import cosine, sine
 from optipath.kernels.vertex_chain import LONGEST, SHORTEST, PointsByAngles
 from optipath.materials.quantities import ANGLE, INCIDENCE, Quantity
-from optipath.values.arrays import array_of, check_broadcast, entries_of, read_only, same_fields
+from optipath.values.arrays import (
+    array_of,
+    check_broadcast,
+    entries_of,
+    locked,
+    read_only,
+    same_fields,
+)
 from optipath.values.domains import Choice, Domain
 from optipath.values.jax_values import is_traced, namespace
-from optipath.values.precision import held
+from optipath.values.precision import as_doubles, held
 from optipath.values.use import stored_value
 
 if TYPE_CHECKING:
@@ -164,6 +172,8 @@ class VerticesDomain(Domain):
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change; whole numbers, which may wrap, as floats."""
+        if _VIEWS.get(id(value)) is value:
+            return value
         stored = read_only(value)
         whole = isinstance(stored, np.ndarray) and stored.dtype.kind in "iu"
         return read_only(stored.astype(np.float64)) if whole else stored
@@ -223,6 +233,18 @@ def _leg_fault(owner: str, leg: npt.NDArray[Any], place: int, where: str) -> str
         f"{both} are about {float(np.max(np.abs(end - start))):.2g} apart; legs are within "
         f"{SHORTEST:g} .. {LONGEST:g}: give the points in another unit"
     )
+
+
+_VIEWS: WeakValueDictionary[int, npt.NDArray[np.float64]] = WeakValueDictionary()
+
+
+def viewed(value: Any) -> Any:
+    """Return an array as a view of doubles that cannot be written to, which no vertex copies."""
+    if type(value) is not np.ndarray or value.dtype.kind not in "fiu" or value.ndim < 2:
+        return value
+    view = locked(as_doubles(value).view())
+    _VIEWS[id(view)] = view
+    return view
 
 
 VERTICES = VerticesDomain("coordinate")

@@ -32,6 +32,7 @@ from optipath.values.arrays import (
     joint_shape,
     same,
 )
+from optipath.values.curve_value import CurveValue, parameters_among
 from optipath.values.domains import Domain
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.operands import Operand, Operation
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from optipath.kernels.primitives import KernelFunction, Primitives
     from optipath.values.operands import ResultOf
     from optipath.values.parameters import Resolved
 
@@ -234,6 +236,28 @@ def _fits(xp: Any, *numbers: Any) -> Any:
     return ~xp.isnan(cos) | (event == Event.BEHIND) | unsound
 
 
+def goes_along(xp: Primitives) -> KernelFunction:
+    """Make ``(n, event, n, k, event, ..., x0, y0, z0, ...) -> conditions``, one for each vertex.
+
+    The first n is that in front; each is that light can go so, and that n is sound.
+    """
+    met = EVENT_AT_VERTEX.made_for(xp)
+
+    def conditions(front: Any, *numbers: Any) -> tuple[Any, ...]:
+        count = (len(numbers) - 6) // 6
+        points, results = numbers[3 * count :], []
+        for at in range(count):
+            event, n, k = numbers[3 * at : 3 * at + 3]
+            *_, cos, _ = met(front, n, k, event, *points[3 * at : 3 * at + 9])
+            refracts = event == Event.REFRACTS
+            sound = ~refracts | ((front > 0.0) & (n > 0.0))
+            results.append(((cos >= 0.0) & sound) | (event == Event.BEHIND))
+            front = xp.where(refracts, n, front)
+        return tuple(results)
+
+    return conditions
+
+
 def _surely_fits(event: Any, n1: Any, n2: Any, k: Any, *points: Any) -> Any:
     """Return where light can go so by a margin, as nearly all does: by products alone."""
     start, here, end = points_of(points)
@@ -386,8 +410,8 @@ class VertexFrame:
     @property
     def names(self) -> set[str]:
         """The open parameters that it depends on."""
-        values = (operand.value for operand in self._views)
-        return {v.name for v in values if isinstance(v, Parameter) and not v.bound}
+        several = parameters_among([operand.value for operand in self._views])
+        return {p.name for p in several if not (p.bound or isinstance(p, CurveValue))}
 
     def frame(
         self, arguments: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray

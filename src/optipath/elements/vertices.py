@@ -42,6 +42,8 @@ from optipath.materials.index_domains import FOLLOWS
 from optipath.materials.material import Material
 from optipath.materials.quantities import ClearIndex, Index, OutsideIndex, Whole
 from optipath.values.agreement import first_faults
+from optipath.values.arrays import changed
+from optipath.values.curve_value import CurveValue
 from optipath.values.operands import Operand, Operation, operand_of
 from optipath.values.precision import is_whole
 from optipath.values.use import is_checked_later, refuse
@@ -145,7 +147,8 @@ class ChainVertex(MediaOfBoundary, Element):
     def _goes_so(self, owner: str, *event_and_media: Any) -> tuple[Agreement, ...]:
         """Return that light can go from point to point by an event, n in front, n and k behind."""
         of_angles = isinstance(self.vertices, VerticesByAngles)
-        if self.bad == "mask" or self.front is FOLLOWS or of_angles:
+        goes = self._is_sound and getattr(self, "_goes", False)
+        if goes or self.bad == "mask" or self.front is FOLLOWS or of_angles:
             return ()
         points = self.in_chain.points(around=True).arguments
         return (EventFits((*map(operand_of, event_and_media), *points), owner),)
@@ -205,7 +208,8 @@ class Vertex(ChainVertex, kind="vertex"):
 
     def domain_here(self, domain: Domain) -> Domain:
         if isinstance(domain, EventsDomain):
-            return replace(domain, tail=(self.in_chain.count,))
+            follows = isinstance(self.events, CurveValue)
+            return changed(domain, tail=(self.in_chain.count,), takes_parameters=follows)
         if isinstance(domain, VerticesDomain):
             domain = replace(domain, ends=True)
         return super().domain_here(domain)
@@ -221,8 +225,11 @@ class Vertex(ChainVertex, kind="vertex"):
         """Return the medium of each chain at a port, behind as far as it is known."""
         if port == "in":
             return self.outside
+        *sides, behind = getattr(self, "_behind", (None, None, None))
+        if sides[0] is self.index and sides[1] is self.outside:
+            return behind
         event, n1, n2, _ = map(operand_of, self._event_and_media)
-        if any(not operand.known or operand.traced for operand in (n1, n2)):
+        if any(not operand.known or operand.traced for operand in (event, n1, n2)):
             return FOLLOWS
         return np.where(event.numbers() == Event.REFRACTS, n2.numbers(), n1.numbers())
 

@@ -14,7 +14,8 @@ from optipath.engines.program import carrying, execute, itself, whole_matrices
 from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, reproducible_symbolic
 from optipath.kernels.carriers.carrier import MatrixCarrier, StokesCarrier
 from optipath.kernels.carriers.intensities import BoundsCarrier, largest_error
-from optipath.kernels.carriers.structures import is_physical
+from optipath.kernels.carriers.structures import FULL, is_physical
+from optipath.kernels.kernel import is_defined_in
 from optipath.kernels.trigonometry import DIGITS
 from optipath.light.polarization_state import UNDERFLOW
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE
@@ -70,6 +71,7 @@ class PathFormula:
         program, carried = carrying(self.program, carrier, xp, self.precision)
         solvers: list[LoopSolver] = []
         symbols = self._operands()
+        shows_dark = self.axes and type(carried) is StokesCarrier and self._only_loses
         if self.single:
             carried = CallingCarrier(self.recorder, carried)
         number = self.recorder.opaque if self.unreduced else itself
@@ -82,7 +84,9 @@ class PathFormula:
             read: Any = components[: 4 if self.unreduced else reading.components]
             sound = self._finite(read)
             if carrier is StokesCarrier:
-                sound = sound & (components[0] >= tiny * UNDERFLOW)
+                bright = components[0] >= tiny * UNDERFLOW
+                dark = sum(map(abs, read)) == 0.0
+                sound = sound & (bright | dark if shows_dark else bright)
             read, sound = self._masked(read, sound)
             if not isinstance(exponent, int):
                 read = [xp.ldexp(component, exponent) for component in read]
@@ -92,6 +96,15 @@ class PathFormula:
             outputs += [*read, *[np.nan] * (4 - len(read))]
             self.holds.append(sound)
         return self._formula(outputs)
+
+    @property
+    def _only_loses(self) -> bool:
+        """Whether nothing amplifies, so that what is 0 on the way is 0 at the end."""
+        kernels = [evaluation.kernel for evaluation in self.program.evaluations]
+        return not self.program.loops and all(
+            kernel.structure is not FULL and is_defined_in("optipath.kernels.", kernel.factory)
+            for kernel in kernels
+        )
 
     def matrix(self, source: str, reading: Reading) -> Formula:
         """Return the formula of the Mueller matrix from a source to a reading, row by row."""

@@ -513,7 +513,7 @@ class Material:
             return N_OF_CLEAR
         if (n := _number(self.n)) is None or broadcast_fault({"n": n.shape, "k": k.shape}):
             return N
-        return N_OF_CLEAR if np.any((n == 0.0) & (k == 0.0)) else N
+        return N if np.all(n) or not np.any((n == 0.0) & (k == 0.0)) else N_OF_CLEAR
 
     def at(self, wavelength: Any) -> Material:
         """Return what it is at a wavelength: a constant material, of arrays for several.

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from optipath.elements.ends import Detector, Source
 from optipath.elements.vertex_chain import of_chain, pieces_of
-from optipath.elements.vertex_place import deviation, off_normals
+from optipath.elements.vertex_place import deviation, goes_along, off_normals
 from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
-from optipath.errors import ValueFault
+from optipath.errors import ShapeError, ValueFault
 from optipath.faults import shown
 from optipath.kernels.catalog import REFRACTION
 from optipath.kernels.primitives import NUMPY
@@ -19,11 +19,13 @@ from optipath.kernels.vertex_chain import Event
 from optipath.materials.index_domains import INDEX
 from optipath.materials.material import Material
 from optipath.paths.path_graph import PathGraph
+from optipath.plan.batches import holds_for_all
 from optipath.values.arrays import (
     as_argument,
     broadcast_fault,
     check_broadcast,
     first_place,
+    joint_shape,
     locked,
 )
 from optipath.values.jax_values import is_traced
@@ -39,7 +41,7 @@ if TYPE_CHECKING:
     Floats = npt.NDArray[np.float64]
     Letters = npt.NDArray[np.uint32]
     Bools = npt.NDArray[np.bool_]
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from optipath.elements.vertices import ChainVertex
 
@@ -65,41 +67,65 @@ class Histories:
         return len(self.materials)
 
 
+class Said(NamedTuple):
+    """What is said of histories: letters (..., m), ids (..., m) and lengths (...), as read."""
+
+    events: Letters
+    ids: npt.NDArray[Any] | None = None
+    lengths: npt.NDArray[Any] | None = None
+
+
+def read_part(what: str, value: Any, count: int) -> npt.NDArray[Any]:
+    """Return events, ids or lengths as `Said` has them; a count of 0 is any."""
+    if what == "events":
+        return letters_of(value, count)
+    numbers = as_argument(what, value)
+    if numbers.dtype.kind not in "iuf":
+        raise ValueFault(f"{what} must be whole numbers, not {shown(value)}")
+    width = numbers.shape[-1] if numbers.ndim else 0
+    if what == "ids" and (not width or width != (count or width)):
+        shape = f"(..., {count or 'm'}), one for each vertex, not {numbers.shape}"
+        raise ValueFault(f"ids must have shape {shape}")
+    return numbers
+
+
 def histories(
     materials: Sequence[Any], events: Any, ids: Any, lengths: Any, batch: tuple[int, ...]
 ) -> Histories:
     """Return the histories of chains whose points have a batch of this shape."""
-    chosen = known_lengths = None
-    if ids is not None:
-        chosen = _real_numbers("ids", ids)
-        if not chosen.ndim or not chosen.shape[-1]:
-            shape = f"(..., m), one for each vertex, not {chosen.shape}"
-            raise ValueFault(f"ids must have shape {shape}")
+    chosen = None if ids is None else read_part("ids", ids, 0)
     count = len(materials) if chosen is None else chosen.shape[-1]
-    if lengths is not None:
-        known_lengths = _real_numbers("lengths", lengths)
-        bad = ~((known_lengths >= 1) & (known_lengths <= count))
-        _refuse("lengths", known_lengths, bad, f"how many vertices each chain has, 1 .. {count}")
+    known = None if lengths is None else read_part("lengths", lengths, count)
     letters = letters_of(REFLECTS * count if events is None else events, count)
     batches = {
         "vertices": batch,
         "ids": () if chosen is None else chosen.shape[:-1],
-        "lengths": () if known_lengths is None else known_lengths.shape,
+        "lengths": () if known is None else known.shape,
         "events": letters.shape[:-1],
     }
     ValueFault.raise_for(broadcast_fault({name: shape for name, shape in batches.items() if shape}))
-    codes = events_of(letters, known_lengths)
+    chains = history_of(materials, Said(letters, chosen, known))
+    codes = numbers_of_events(chains)
+    rows = codes.reshape(-1, count)
+    if chains.ended is None and len(rows) and np.all(rows == rows[0]):
+        text = "".join(REFRACTS if code == Event.REFRACTS else REFLECTS for code in rows[0])
+        return replace(chains, events=text)
+    return chains
+
+
+def history_of(materials: Sequence[Any], said: Said) -> Histories:
+    """Return the histories of chains, their events by numbers."""
+    letters, ids, lengths = said
+    count = letters.shape[-1]
+    if lengths is not None:
+        bad = ~((lengths >= 1) & (lengths <= count))
+        _refuse("lengths", lengths, bad, f"how many vertices each chain has, 1 .. {count}")
+    codes = events_of(letters, lengths)
     ended = codes == Event.BEHIND
     media = tuple(materials)
-    if chosen is not None:
-        media = media_by_ids(materials, ids_within(chosen, len(materials), ended))
-    if np.any(ended):
-        return Histories(media, codes, ended)
-    rows = codes.reshape(-1, count)
-    if len(rows) and np.all(rows == rows[0]):
-        text = "".join(REFRACTS if code == Event.REFRACTS else REFLECTS for code in rows[0])
-        return Histories(media, text)
-    return Histories(media, codes)
+    if ids is not None:
+        media = media_by_ids(materials, ids_within(ids, len(materials), ended))
+    return Histories(media, codes, ended if np.any(ended) else None)
 
 
 def masked(chains: Histories, bad: Bools) -> Histories:
@@ -121,7 +147,10 @@ def letters_of(events: Any, count: int) -> Letters:
     >>> letters_of(["RT", "T"], 2).tolist()
     [[82, 84], [84, 0]]
     """
-    texts = as_argument("events", events)
+    if type(events) is np.ndarray and events.dtype.kind == "U":
+        texts = events.astype(events.dtype.newbyteorder("="), copy=False)
+    else:
+        texts = as_argument("events", events)
     if texts.dtype.kind == "O" and all(isinstance(text, str) for text in texts.ravel()):
         texts = texts.astype(str)
     if texts.dtype.kind != "U":
@@ -149,11 +178,12 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
     count = letters.shape[-1]
     if lengths is not None:
         ended = np.arange(count) >= lengths[..., np.newaxis]
+    elif letters.ndim < 2 or np.all(letters):
+        ended = np.zeros(letters.shape, bool)
     else:
         # Of several texts, all behind the last letter is none.
         ended = np.logical_and.accumulate(letters[..., ::-1] == 0, axis=-1)[..., ::-1]
         ended[..., 0] = False
-        ended &= letters.ndim > 1
     refracts = letters == ord(REFRACTS)
     known = refracts | (letters == ord(REFLECTS)) | ended
     codes = np.empty(known.shape)
@@ -168,16 +198,10 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
     return codes
 
 
-def _real_numbers(what: str, argument: Any) -> npt.NDArray[Any]:
-    numbers = as_argument(what, argument)
-    if numbers.dtype.kind not in "iuf":
-        raise ValueFault(f"{what} must be whole numbers, not {shown(argument)}")
-    return numbers
-
-
 def _refuse(what: str, numbers: npt.NDArray[Any], bad: Bools, cure: str) -> None:
     """Raise where numbers are bad, or not whole."""
-    bad = bad | (numbers != np.rint(numbers))
+    if numbers.dtype.kind == "f":
+        bad = bad | (numbers != np.rint(numbers))
     if np.any(bad):
         first = f"{np.broadcast_to(numbers, bad.shape)[bad].ravel()[0]:.12g}{first_place(bad)}"
         raise ValueFault(f"{what} is {first}; give {cure}")
@@ -185,8 +209,10 @@ def _refuse(what: str, numbers: npt.NDArray[Any], bad: Bools, cure: str) -> None
 
 def ids_within(numbers: npt.NDArray[Any], media: int, ended: Bools) -> npt.NDArray[Any]:
     """Return which medium is behind each vertex (..., m) of each chain."""
-    with np.errstate(invalid="ignore"):
-        whole = np.where(ended, 0, numbers)
+    whole = numbers
+    if ended.any():
+        with np.errstate(invalid="ignore"):
+            whole = np.where(ended, 0, numbers)
     bad = (whole < 0) | (whole >= media)
     _refuse("ids", whole, bad, f"the place of one of the materials, 0 .. {media - 1}")
     few: npt.NDArray[Any] = whole.astype(np.min_scalar_type(media - 1))
@@ -204,12 +230,23 @@ def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any]) -> tuple[Any, 
         n[place], k[place] = one_n, one_k
     # Row by row, which is read faster than with a stride.
     rows = np.ascontiguousarray(np.moveaxis(ids, -1, 0))
-    each = ((locked(n.take(row)), locked(k.take(row)) if np.any(k) else k[:1]) for row in rows)
-    return tuple(Material(*parts) if np.any(parts[1]) else parts[0] for parts in each)
+    clear = locked(np.zeros(()))
+    return tuple(
+        KnownIndex(locked(n.take(row)), locked(k.take(row)) if np.any(k) else clear) for row in rows
+    )
+
+
+class KnownIndex(NamedTuple):
+    """The numbers n and k of a medium, over chains; they have been checked."""
+
+    n: Floats
+    k: Floats
 
 
 def index_parts(name: str, medium: Any) -> tuple[Floats, Floats]:
     """Return n and k of a medium as numbers."""
+    if type(medium) is KnownIndex:
+        return medium
     parts = (medium.n, medium.k) if isinstance(medium, Material) else (medium,)
     if any(isinstance(part, Parameter) or is_traced(part) for part in parts):
         cure = "chains that differ need numbers; give one here, and make a path for each value"
@@ -222,16 +259,41 @@ def index_parts(name: str, medium: Any) -> tuple[Floats, Floats]:
     return locked(np.asarray(n)), locked(np.asarray(k))
 
 
-def path_of_chains(
-    points: Any, chains: Histories, intensity: Any, outside: Any, bad: IfBad
-) -> PathGraph:
-    """Return the path of light from point to point."""
+def path_along(vertices: Iterable[ChainVertex], intensity: Any) -> PathGraph:
+    """Return the path of light from vertex to vertex."""
     path = PathGraph()
     node = path.add("light", Source(intensity))
-    for place, vertex in enumerate(_vertices(points, chains, outside, bad), 1):
+    for place, vertex in enumerate(vertices, 1):
         node = node >> path.add(f"vertex{place}", vertex)
     node >> path.add("eye", Detector())
     return path
+
+
+def vertices_of(points: Any, chains: Histories, outside: Any, bad: IfBad) -> list[ChainVertex]:
+    """Return the vertices of chains that are known."""
+    vertices = [*_vertices(points, chains, outside, bad)]
+    if bad == "refuse" and _goes_along(points, chains, outside):
+        for vertex in vertices:  # What is known of them is sound, and is not looked at again.
+            vars(vertex).update(_is_sound=True, _goes=True)
+    return vertices
+
+
+def _goes_along(points: Any, chains: Histories, outside: Any) -> bool:
+    """Tell, in one pass, whether light can go along chains whose events differ."""
+    events = chains.events
+    if isinstance(events, str) or not isinstance(points, np.ndarray):
+        return False
+    numbers: list[Any] = [index_parts("outside", outside)[0]]
+    for place, material in enumerate(chains.materials):
+        numbers += [events[..., place], *index_parts("", material)]
+    numbers += [points[..., place, axis] for place in range(points.shape[-2]) for axis in range(3)]
+    shapes = [number.shape for number in numbers]
+    try:
+        batch = joint_shape(*shapes)
+    except ShapeError:
+        return False  # A fault of its own.
+    known = [number.item() if number.size == 1 else number for number in numbers]
+    return holds_for_all(goes_along, known, batch)
 
 
 def _vertices(points: Any, chains: Histories, outside: Any, bad: IfBad) -> Iterator[ChainVertex]:
@@ -241,19 +303,28 @@ def _vertices(points: Any, chains: Histories, outside: Any, bad: IfBad) -> Itera
             zip(chains.events, chains.materials, strict=True), 1
         ):
             kind = SpecularVertex if event == REFLECTS else RefractingVertex
-            yield kind(medium, points, place, front, chains.count, bad)
-            front = medium if event == REFRACTS else front
+            index = index_of(*medium) if type(medium) is KnownIndex else medium
+            yield kind(index, points, place, front, chains.count, bad)
+            front = index if event == REFRACTS else front
         return
     events: Any = locked(chains.events)
     front, _ = index_parts("outside", outside)
     for place, material in enumerate(chains.materials, 1):
         n, k = index_parts(f"materials[{place - 1}]", material)
-        behind = Material(_unboxed(n), _unboxed(k)) if np.any(k) else _unboxed(n)
-        yield Vertex(behind, points, place, _unboxed(front), events=events, bad=bad)
-        front = locked(np.where(events[..., place - 1] == Event.REFRACTS, n, front))
+        vertex = Vertex(index_of(n, k), points, place, unboxed(front), events=events, bad=bad)
+        if place < chains.count:
+            front = locked(np.where(events[..., place - 1] == Event.REFRACTS, n, front))
+            # The very array that the next one has in front, so that nobody compares them.
+            vars(vertex)["_behind"] = vertex.index, vertex.outside, unboxed(front)
+        yield vertex
 
 
-def _unboxed(numbers: Floats) -> Any:
+def index_of(n: Any, k: Any) -> Any:
+    """Return what stands for n and k of a medium, numbers or arrays."""
+    return Material(unboxed(n), unboxed(k)) if np.any(k) else unboxed(n)
+
+
+def unboxed(numbers: Floats) -> Any:
     """Return an array, or one number as it is."""
     return numbers if numbers.ndim else float(numbers)
 
@@ -276,6 +347,8 @@ def known(value: Any) -> Any:
 
 def known_index(medium: Any) -> tuple[Floats, Floats] | None:
     """Return n and k of a medium; None where they are not known."""
+    if type(medium) is KnownIndex:
+        return medium
     if isinstance(medium, Material):
         n, k = known(medium.n), known(medium.k)
         medium = None if n is None or k is None else Material(n, k)
@@ -347,15 +420,15 @@ def refuse_doubtful(chains: Histories, vertices: Any, outside: Any, there: Any) 
     events, readings = "", ""
     for place, material in enumerate(chains.materials):
         behind = known_index(material)
-        around = _around(points, front, behind, place, there)
-        if around is None or not _may_refract(*around):
+        first = _may_refract(points, front, behind, place, there)
+        if first is None:
             events += REFLECTS
             continue
         events += REFRACTS
         readings = readings or (
-            f"light is turned by {deviation(around[0][0]):.6g} deg at vertex {place + 1}"
+            f"light is turned by {deviation(first[2:]):.6g} deg at vertex {place + 1}"
             f"{of_chain(0, points.shape[:-2])}, which a reflection does, and a refraction from "
-            f"n = {around[1][0]:.6g} into n = {around[2][0]:.6g}"
+            f"n = {first[0]:.6g} into n = {first[1]:.6g}"
         )
         front = behind
     if readings:
@@ -363,31 +436,27 @@ def refuse_doubtful(chains: Histories, vertices: Any, outside: Any, there: Any) 
         raise ValueFault(f"{readings}; say which, {one}, events='{events}' where it goes through")
 
 
-def _around(
-    points: Any, front: Any, behind: Any, place: int, there: Any
-) -> tuple[Floats, Floats, Floats] | None:
-    """Return the points (n, 9) around a vertex and n on both sides, of all chains that have it.
+def _may_refract(points: Any, front: Any, behind: Any, place: int, there: Any) -> Any:
+    """Return n on both sides of a vertex and the points around it, of the first chain, or None.
 
-    None where light cannot go on behind it, or there is no such chain.
+    None unless all chains that have it may refract there.
     """
     if behind is None or any(np.any(k) or np.any(n <= 0.0) for n, k in (front, behind)):
         return None
+    around = [points[..., at, axis] for at in range(place, place + 3) for axis in range(3)]
+    arrays, has, first = [front[0], behind[0], *around], np.ones(1, bool), None
     try:
-        sides = [points[..., place, 0], front[0], behind[0]]
-        batch = np.broadcast_shapes(*(each.shape for each in sides))
-        has = np.broadcast_to(True if there is None else there[..., place], batch)
+        has, *_ = np.broadcast_arrays(has if there is None else there[..., place], has, *arrays)
     except ValueError:
         return None  # A fault of its own.
-    around = np.broadcast_to(points[..., place : place + 3, :], (*batch, 3, 3)).reshape(*batch, 9)
-    n1, n2 = (np.broadcast_to(n, batch)[has] for n in (front[0], behind[0]))
-    return (np.asarray(around[has], np.float64), n1, n2) if np.any(has) else None
-
-
-def _may_refract(points: Floats, front: Floats, behind: Floats) -> bool:
-    """Tell whether all chains may refract at a vertex."""
-    for piece in pieces_of(len(points)):
+    for piece in pieces_of(has.size):
+        where = np.unravel_index(np.arange(piece.start, piece.stop), has.shape)
+        some = has[where]
+        numbers = [np.broadcast_to(each, has.shape)[where][some] for each in arrays]
         with np.errstate(all="ignore"):
-            *_, cos, sin = REFRACTION.made_for(NUMPY)(front[piece], behind[piece], *points[piece].T)
+            *_, cos, sin = REFRACTION.made_for(NUMPY)(*numbers)
             if not np.all((cos >= 0.0) & (sin > _TURNED)):
-                return False
-    return True
+                return None
+        if first is None and np.any(some):
+            first = [float(each[0]) for each in numbers]
+    return first

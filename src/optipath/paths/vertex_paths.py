@@ -6,30 +6,44 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.vertex_chain import BAD, VERTICES, VerticesByAngles, counted, legs_fit
+from optipath.elements.vertex_chain import (
+    BAD,
+    VERTICES,
+    VerticesByAngles,
+    counted,
+    legs_fit,
+    viewed,
+)
 from optipath.errors import PathError, ValueFault
 from optipath.faults import shown, unknown
 from optipath.materials.index_domains import OUTSIDE
 from optipath.paths.chains import (
-    Histories,
     apart_where_absorbed,
     histories,
+    index_parts,
+    known,
     normals_checked,
-    path_of_chains,
+    path_along,
     refuse_doubtful,
+    vertices_of,
 )
+from optipath.paths.open_histories import OpenHistories, open_histories
 from optipath.values.arrays import as_argument, entries_of
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
+from optipath.values.precision import is_whole
 from optipath.values.use import Use, checked_later, faults_of, stored_value
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import numpy.typing as npt
 
     from optipath.elements.vertex_chain import IfBad
     from optipath.paths.path_graph import PathGraph
+
+
+_MOST = (1 << 31) - 1
 
 
 def path_from_vertices(
@@ -40,9 +54,10 @@ def path_from_vertices(
     *,
     events: Any = None,
     outside: Any = 1.0,
-    ids: npt.ArrayLike | None = None,
-    lengths: npt.ArrayLike | None = None,
+    ids: npt.ArrayLike | Parameter | None = None,
+    lengths: npt.ArrayLike | Parameter | None = None,
     bad: IfBad = "refuse",
+    count: int | None = None,
 ) -> PathGraph:
     """Return the path of light from point to point, reflected or refracted at each but the ends.
 
@@ -57,7 +72,8 @@ def path_from_vertices(
     ----------
     vertices : array_like, shape (..., m + 2, 3), Parameter or VerticesByAngles
         The points from the light to the eye, in the unit of any length; legs within 1e-70 and
-        1e70. A parameter is given arrays of this shape when the path runs.
+        1e70. A parameter is given arrays of this shape when the path runs. An array of floats is
+        used where it stands: leave it as it is while the path is in use, or give a copy.
     materials : sequence of m float, complex, array_like, Material or Parameter
         The index of refraction on the other side of each surface, in order from the light. Light
         that is reflected stays in its medium; light that is refracted goes on in this one, which
@@ -67,7 +83,7 @@ def path_from_vertices(
         be along that of the vertex to within 1e-6 rad, or the rounding of half precision.
     intensity : float, array_like or Parameter, optional
         Of the unpolarised light.
-    events : str, sequence of str, or array_like of str, shape (..., m), optional
+    events : str, sequence of str, array_like of str, shape (..., m), or Parameter, optional
         A letter for each vertex, in order from the light: R where it is reflected, T where it is
         refracted (let through). One text is for all chains, several are one for each, whose
         letters say how long it is; an array has a single letter for each vertex. Without it every
@@ -75,13 +91,16 @@ def path_from_vertices(
         those of a refraction, `events` is asked for.
     outside : float, array_like, Material or Parameter, optional
         The index of the medium that the light starts in, without absorption.
-    ids : array_like of int, shape (..., m), optional
+    ids : array_like of int, shape (..., m), or Parameter, optional
         Which of the materials, counted from 0, is on the other side of each surface of each chain.
-    lengths : array_like of int, shape (...), optional
+    lengths : array_like of int, shape (...), or Parameter, optional
         How many vertices each chain has, 1 to m. What stands behind its last point is not read;
         its light and its frame are those of its own last leg.
     bad : {"refuse", "mask"}, optional
         Whether chains that cannot be are refused, or their light is NaN.
+    count : int, optional
+        How many vertices a chain has at most, m; needed only where `ids` is a parameter, and
+        neither the points nor `events` say it.
 
     Returns
     -------
@@ -127,18 +146,26 @@ def path_from_vertices(
         batch: tuple[int, ...] = ()
         if not isinstance(vertices, (Parameter, VerticesByAngles)):
             batch = np.shape(as_argument("the array of vertices", vertices))[:-2]
-        chains = histories([*map(_real_again, media)], events, ids, lengths, batch)
+        media = tuple(map(_real_again, media))
+        parts = {"events": events, "ids": ids, "lengths": lengths}
+        is_open = any(isinstance(part, Parameter) for part in parts.values())
+        most = _count(count, media, vertices, parts) if is_open or count is not None else 0
+        chains: Any
+        if is_open:
+            chains = open_histories(media, index_parts("outside", start)[0], most, parts)
+        else:
+            chains = histories(media, events, ids, lengths, batch)
         points = _points(vertices, chains)
-        if bad == "mask":
+        if bad == "mask" and not is_open:
             chains = apart_where_absorbed(chains)
         path = _composed(points, chains, intensity, start, bad)
         if normals is not None:
-            if not isinstance(points, np.ndarray):
+            if is_open or not isinstance(points, np.ndarray):
                 raise ValueFault("normals need points that are known; leave them out")
             checked = normals_checked(points, normals, chains, start, bad)
             if checked is not chains:
                 path = _composed(points, checked, intensity, start, bad)
-        elif events is None and not isinstance(points, VerticesByAngles):
+        elif events is None and not (is_open or isinstance(points, VerticesByAngles)):
             # Light may not arrive everywhere.
             there = None if chains.ended is None else ~chains.ended
             if bad == "mask" and isinstance(points, np.ndarray):
@@ -147,9 +174,32 @@ def path_from_vertices(
     return path
 
 
-def _composed(points: Any, chains: Histories, intensity: Any, start: Any, bad: IfBad) -> PathGraph:
+def _count(told: Any, media: Sequence[Any], vertices: Any, parts: Mapping[str, Any]) -> int:
+    """Return how many vertices chains have at most, by the first that says so."""
+    if told is not None and not is_whole(told, most=_MOST):
+        raise ValueFault(f"count must be a whole number above 0, not {shown(told)}")
+    ids, points = (np.shape(known(value)) for value in (parts["ids"], vertices))
+    own = (len(media),) if parts["ids"] is None else ids[-1:]
+    if not own:  # Of letters for each vertex, or one text for all chains.
+        text = parts["events"]
+        own = (len(text),) if isinstance(text, str) else np.shape(text)[1:][-1:]
+    if not own and len(points) > 1:
+        own = (points[-2] - 2,)
+    if not own and told is None:
+        raise ValueFault("ids is a parameter; say how many vertices chains have, count=...")
+    if told is not None and own and told != own[0]:
+        by = "ids" if ids else "events or vertices" if parts["ids"] is not None else "materials"
+        raise ValueFault(f"count is {told}, but {by} say {own[0]}; leave it out")
+    return int(told or own[0])
+
+
+def _composed(points: Any, chains: Any, intensity: Any, start: Any, bad: IfBad) -> PathGraph:
     with checked_later():  # Composing names the vertices, and looks at their array once.
-        path = path_of_chains(points, chains, intensity, start, bad)
+        if isinstance(chains, OpenHistories):
+            vertices = chains.vertices(points, bad)
+        else:
+            vertices = vertices_of(points, chains, start, bad)
+        path = path_along(vertices, intensity)
     path.compose()
     return path
 
@@ -160,7 +210,7 @@ def _real_again(medium: Any) -> Any:
     return medium.real if is_complex and not np.any(np.imag(medium)) else medium
 
 
-def _points(vertices: Any, chains: Histories) -> Any:
+def _points(vertices: Any, chains: Any) -> Any:
     """Return vertices that nobody can change, as many as the chains have."""
     if isinstance(vertices, Parameter):
         return vertices
@@ -175,7 +225,7 @@ def _points(vertices: Any, chains: Histories) -> Any:
         return vertices
     points = vertices
     if not is_traced(vertices):
-        points = VERTICES.kept(as_argument("the array of vertices", vertices))
+        points = VERTICES.kept(viewed(as_argument("the array of vertices", vertices)))
     shape = np.shape(points)
     if shape[-2:] != (count + 2, 3):
         given = shape or shown(vertices)

@@ -23,6 +23,7 @@ from optipath.plan.reading import pieces, sliced
 from optipath.plan.runnable import RunOptions
 from optipath.plan.runner import runner_for
 from optipath.values.arrays import locked
+from optipath.values.curve_value import computed_values
 from optipath.values.jax_values import is_traced
 from optipath.values.wavelength import Wavelength
 
@@ -292,6 +293,7 @@ class LaterFrame(_Later):
     @cached_property
     def _made(self) -> Any:
         arguments = {name: self.inputs.numbers_for(name, self.value(name)) for name in self.names}
+        arguments |= computed_values(self.inputs.computed, arguments)
         return self.of.frame(arguments, self.part if self.where else np.asarray)
 
 

@@ -9,21 +9,27 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines.choice import REGISTRY
-from optipath.engines.formula import stages
-from optipath.engines.symbols import Symbol
-from optipath.plan.reading import pieces
+from optipath.engines.choice import COMPILER, REGISTRY, is_installed
+from optipath.engines.formula import Formula, stages
+from optipath.engines.symbols import Recorder, Symbol, reproducible_symbolic
+from optipath.kernels.primitives import made
+from optipath.plan.reading import Layout, pieces
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from optipath.engines.formula import ArrayPath, Formula
-    from optipath.plan.reading import Layout, Piece
+    from optipath.engines.formula import ArrayPath
+    from optipath.kernels.primitives import Factory
+    from optipath.plan.reading import Piece
     from optipath.values.precision import Array
 
 
 _AT_ONCE = 1 << 16
 """How many paths are done before it is looked whether the formula holds for them."""
+
+
+_IN_CACHE, _MANY = 1 << 13, 16
+"""The same where more arrays than so many are copied for them, which must stay in the cache."""
 
 
 class Results(NamedTuple):
@@ -138,12 +144,33 @@ class BatchRunner:
 
     def _failures(self, grid: Grid, out: Array) -> list[Piece]:
         """Fill the results; return the pieces for which the formula does not hold."""
-        several = [*pieces(grid.batch, _AT_ONCE)]
+        size = _IN_CACHE if len(grid.cells) > _MANY else _AT_ONCE
+        several = [*pieces(grid.batch, size)]
         if self.threads == 1 or len(several) == 1:
             return [piece for piece in several if not grid.fill(piece, out)]
         with ThreadPoolExecutor(self.threads) as pool:
             held = pool.map(lambda piece: grid.fill(piece, out), several)
             return [piece for piece, holds in zip(several, held, strict=True) if not holds]
+
+
+def holds_for_all(factory: Factory, numbers: Sequence[Any], batch: tuple[int, ...]) -> bool:
+    """Tell whether the condition that a kernel makes of numbers holds for all paths of a batch."""
+    arrays = {str(place): n for place, n in enumerate(numbers) if isinstance(n, np.ndarray)}
+    layout, recorder = Layout(batch, arrays), Recorder(np.dtype(np.float64))
+    symbols = [
+        recorder.input(name, axes=layout.axes[name]) if name in arrays else number
+        for name, number in zip(map(str, range(len(numbers))), numbers, strict=True)
+    ]
+    with np.errstate(all="ignore"):
+        formula = Formula(
+            recorder.dtype, (), made(factory, reproducible_symbolic("float64"))(*symbols)
+        )
+    if not isinstance(formula.holds, Symbol):
+        return bool(formula.holds)
+    compiles = layout.paths > _AT_ONCE and is_installed(COMPILER)
+    path = REGISTRY[COMPILER if compiles else "numpy"].compiled(formula)
+    grid, out = Grid(formula, path, layout, arrays, layout.axes, last=True), np.empty((0, 0))
+    return all(grid.fill(piece, out) for piece in pieces(batch, _IN_CACHE))
 
 
 class _Compiled:

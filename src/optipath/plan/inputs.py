@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError
+from optipath.errors import OptipathError, ParameterError, ValueFault
 from optipath.faults import Fault, no_value
 from optipath.materials.named_materials import of_complex, passed_too_late
 from optipath.values.agreement import first_faults
@@ -70,7 +70,8 @@ class Inputs:
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
                     faults += of_complex(fault.faults, self.uses, name, value)
-        resolved |= computed_values(self.computed, resolved)
+        with ValueFault.collecting(faults):
+            resolved |= computed_values(self.computed, resolved)
         results: dict[str, tuple[int, ...]] = {}
         refused: set[str] = set()
         for use in self.distinct_uses:

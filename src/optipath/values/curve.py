@@ -36,6 +36,7 @@ class Curve(Unchanging, ABC):
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
     takes_grid: bool = False
+    is_checked: bool = False  # Whether its numbers are looked at where they are made.
     unit: str = ""
     unreal: str = ""
 

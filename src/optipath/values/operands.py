@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import prod
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -40,7 +39,7 @@ _COMPARED = 1 << 20
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
     """Return a part of numbers (..., *tail), as `Operand` names them."""
     if isinstance(part, int):
-        return numbers.reshape(*numbers.shape[: -len(tail)], prod(tail))[..., part]
+        return numbers[(..., *map(int, np.unravel_index(part, tail)))]
     if part == "real":
         return np.real(numbers)
     # Adding 0 turns -0 into 0: an index without absorption has one sign only.
