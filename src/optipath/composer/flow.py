@@ -447,5 +447,5 @@ def vanishes(operand: Operand) -> bool:
     if not operand.known or operand.traced:
         return False
     numbers = operand.numbers()
-    # Of most arrays the first number tells.
-    return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
+    # Of most arrays the first numbers tell.
+    return not np.any(numbers[:64] if numbers.ndim else numbers) and not np.any(numbers)
