@@ -325,19 +325,19 @@ def _conjugate(a: Numbers, b: Numbers) -> tuple[Any, Any]:
 
 
 def _matrix_jones(_: Primitives, numbers: Numbers, columns: Columns) -> Columns:
-    j = numbers[16:]
+    a, b, c, d = (numbers[part : part + 2] for part in range(16, 24, 2))
 
     def passed(column: Column) -> Column:
-        one, other = column, (-column[1], column[0], -column[3], column[2])
-        rows = [(j[row : row + 4 : 2], j[row + 1 : row + 4 : 2]) for row in (0, 4)]
-        results = [
-            products(*zip((*real, *imaginary), (*with_re, *with_im), strict=True))
-            for real, imaginary in rows
-            for with_re, with_im in ((one[::2], other[::2]), (one[1::2], other[1::2]))
-        ]
-        return results[0], results[1], results[2], results[3]
+        x, y = column[:2], column[2:]
+        return *_sum_of_two(a, x, b, y), *_sum_of_two(c, x, d, y)
 
     return passed(columns[0]), passed(columns[1])
+
+
+def _sum_of_two(a: Numbers, x: Numbers, b: Numbers, y: Numbers) -> tuple[Any, Any]:
+    """Return a x + b y of complex numbers."""
+    real = products((a[0], x[0]), (-a[1], x[1]), (b[0], y[0]), (-b[1], y[1]))
+    return real, products((a[0], x[1]), (a[1], x[0]), (b[0], y[1]), (b[1], y[0]))
 
 
 def _grey_jones(numbers: Numbers) -> Numbers:
