@@ -331,6 +331,7 @@ class Facts:
         # Kept with what is known of them, so that no others get their numbers.
         self._outcomes: dict[int, tuple[Operation, tuple[float, ...] | None]] = {}
         self._actions: dict[tuple[int, bool], tuple[Action, Operation]] = {}
+        self._zeros: dict[Hashable, tuple[bool, Operand]] = {}
 
     def outcome(self, operation: Operation) -> tuple[float, ...] | None:
         """Return the numbers that an operation comes to; None if these are not known."""
@@ -379,11 +380,20 @@ class Facts:
                 kernel: Any = inner.kernel
                 row = self.outcome(inner) or _open_numbers(kernel, self._signs(inner))
                 signs.append(_zero_or_one(row[place] if place < len(row) else None))
-            elif (number := number_of(argument)) is None and vanishes(argument):
+            elif (number := number_of(argument)) is None and self._vanishes(argument):
                 signs.append(0.0)
             else:
                 signs.append(_zero_or_one(number))
         return tuple(signs)
+
+    def _vanishes(self, operand: Operand) -> bool:
+        """Tell whether an operand is known to be 0; large arrays are looked at once."""
+        if type(operand.value) is not np.ndarray:
+            return vanishes(operand)
+        key = id(operand.value), operand.part, operand.tail
+        if key not in self._zeros:
+            self._zeros[key] = vanishes(operand), operand
+        return self._zeros[key][0]
 
 
 @lru_cache(1024)
