@@ -20,7 +20,7 @@ from optipath.kernels.primitives import FLOAT, is_below_rounding
 from optipath.values.operands import Operand, ResultOf
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Hashable, Iterator
     from collections.abc import Set as AbstractSet
 
     from optipath.engines.draft import DraftStep
