@@ -604,3 +604,46 @@ def test_the_command_line_takes_the_place_and_tells_of_places(capsys):
     assert "place 'eyes' is unknown; did you mean 'eye'?" in capsys.readouterr().err
     assert main(["show", "npgr026"]) == 0
     assert "light, between, eye" in " ".join(capsys.readouterr().out.split())
+
+
+def test_a_chain_grows_behind_every_path_that_it_was():
+    grown = [op.Source() >> op.Polarizer(0.1)]
+    for place in range(60):
+        element = op.Rotator(0.1 * place) if place % 3 else op.Interface(1.5, 0.3)
+        grown.append(grown[-1] >> element)
+    # The first is asked last, when sixty elements have been put behind it.
+    for length, path in reversed([*enumerate(grown, 2)]):
+        assert len(path) == path.graph.number_of_edges() + 1 == length
+    assert list(grown[4]) == [
+        "source",
+        "polarizer",
+        "interface",
+        "rotator",
+        "rotator-2",
+        "interface-2",
+    ]
+    for element in (op.Rotator(0.2), op.Rotator(0.3)):
+        forked = grown[1] >> element >> op.Detector()
+        assert forked == grown[0] >> op.Interface(1.5, 0.3) >> element >> op.Detector()
+
+
+def test_a_change_of_a_chain_is_none_of_what_it_grew_out_of():
+    first = op.Source() >> op.Rotator(0.1)
+    second = first >> op.Polarizer(0.2)
+    shown = second.graph
+    third = second >> op.Detector()
+    third.replace("rotator", op.Rotator(0.5))
+    third.remove("polarizer")
+    assert first == op.Source() >> op.Rotator(0.1)
+    assert second == first >> op.Polarizer(0.2)
+    assert list(shown) == ["source", "rotator", "polarizer"]
+    assert pickle.loads(pickle.dumps(first)) == copy.deepcopy(first) == copy.copy(first) == first
+
+
+def test_a_parameter_is_bound_in_all_elements_that_are_equal():
+    path = op.Source(stokes=[1, 1, 0, 0])
+    for _ in range(4):
+        path = path >> op.Rotator(op.Parameter("a")) >> op.Attenuator(0.5)
+    path = path >> op.Detector()
+    assert path.bind(a=0.1).trace() == path.trace(a=0.1)
+    np.testing.assert_allclose(path.trace(a=0.1).stokes[1], np.cos(0.8) / 16, rtol=1e-15)

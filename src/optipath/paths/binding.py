@@ -169,11 +169,12 @@ def exchanged(known: Values, values: Mapping[str, Any]) -> Values:
     """Return the values of a copy of a path in which others stand for parameters."""
     copy = known.graph.copy()
     uses = [use for use in known.parameter_uses if use.value.name in values]
-    owners = {use.owner.partition(".")[0] for use in uses}
+    owners = known.alike.keys() & {use.owner.partition(".")[0] for use in uses}
     with checked_later():  # The check of the whole path names parameters and nodes.
-        for name, node in copy.nodes.items():
-            if name in owners:
-                node["element"] = _with_other_fields(node["element"], values)
+        # Of equal elements, uses name the first.
+        made = {id(e): _with_other_fields(e, values) for e in map(known.alike.get, owners)}
+    for name, node in copy.nodes.items():
+        node["element"] = made.get(id(known.alike[name]), node["element"])
     for link in copy.edges.values():
         link["azimuth"] = _exchanged(link["azimuth"], values)
     return Values(copy)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from itertools import count
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+import networkx as nx
 import numpy as np
 
 from optipath.composer.placement import (
@@ -29,9 +30,7 @@ from optipath.values.parameters import Parameter
 from optipath.values.use import stored_value
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Sequence
-
-    import networkx as nx
+    from collections.abc import Callable, Container, Iterable, Sequence
 
     from optipath.composer.wiring import Link, Port
 
@@ -61,7 +60,7 @@ def join(
     if first and second:
         for argument, graph, out in ((leaves, first, True), (None, second, False)):
             with PathError.collecting(faults):
-                ends.append(argument or _open_port(graph, out=out))
+                ends.append(argument or open_port(graph, out=out))
     names = _names(first, second)
     shared = [("node", name) for name in names.values() if name in first]
     shared += [
@@ -93,6 +92,17 @@ def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
     return [*join(graph, others, find_port(graph, port, out=True)).values()][-1]
 
 
+def beginning(graph: nx.MultiDiGraph, nodes: int, about: dict[str, Any]) -> nx.MultiDiGraph:
+    """Return a graph as it was when it had so many nodes, before more was put behind it."""
+    first = dict(islice(graph.nodes.items(), nodes))
+    result = nx.MultiDiGraph()
+    result.graph.update(about)
+    result.add_nodes_from(first.items())
+    links = graph.edges(first, keys=True, data=True)
+    result.add_edges_from(link for link in links if link[1] in first)
+    return result
+
+
 def as_chain(graph: nx.MultiDiGraph) -> list[str]:
     """Return the nodes of a path that `>>` alone can make, in order; none for any other."""
     chain = [name for name in graph if not graph.in_degree(name)]
@@ -109,7 +119,7 @@ def as_chain(graph: nx.MultiDiGraph) -> list[str]:
     return chain if len(chain) == len(graph) and len(ends) == 1 else []
 
 
-def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
+def open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
     """Return the only natural port of a graph that no link uses."""
     elements = dict(graph.nodes(data="element"))
     if len(elements) == 1:
@@ -134,18 +144,32 @@ def _open_port(graph: nx.MultiDiGraph, *, out: bool) -> Port:
 def _names(first: nx.MultiDiGraph, second: nx.MultiDiGraph) -> dict[str, str]:
     """Return what the nodes of the second are called behind the first."""
     names: dict[str, str] = {}
+    others = {*second}
     for name, element in second.nodes(data="element"):
-        taken = {*first, *second, *names.values()}
-        names[name] = (name in first and next_by_kind(name, element, taken)) or name
+        new = next_by_kind(name, element, first, others) if name in first else ""
+        names[name] = new or name
+        others.add(names[name])
     return names
 
 
-def next_by_kind(name: str, element: Element, taken: Collection[str]) -> str:
+def next_by_kind(name: str, element: Element, *taken: Container[str]) -> str:
     """Return the next name by the kind of an element; empty where its name is of its own."""
     kind = name_by_kind(element)
     if not re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name):
         return ""
-    return next(new for n in count(2) if (new := f"{kind}-{n}") not in taken)
+    # In few steps, as a long chain has many of a kind: one that is free, and taken just before.
+
+    def is_taken(number: int) -> bool:
+        return any(f"{kind}-{number}" in names for names in taken)
+
+    free = 2
+    while is_taken(free):
+        free *= 2
+    last = free // 2
+    while free - last > 1:
+        middle = (last + free) // 2
+        last, free = (middle, free) if is_taken(middle) else (last, middle)
+    return f"{kind}-{free}"
 
 
 def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any) -> None:

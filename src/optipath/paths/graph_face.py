@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Never
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, Never, Self
+from weakref import ref
 
 from optipath.composer.path_values import Values
 from optipath.composer.plain_graph import plain
 from optipath.composer.port_frames import PathFrames
 from optipath.composer.wiring import Wiring
 from optipath.elements.element import Chainable
+from optipath.errors import PathError
 from optipath.paths import editing
 from optipath.paths.binding import with_arguments
 from optipath.paths.drawing import with_texts
@@ -32,7 +35,8 @@ class GraphFace(Chainable):
 
     description: str
     cases: dict[str, Case]
-    _graph: nx.MultiDiGraph[str]
+    _own: nx.MultiDiGraph[str] | None
+    _is_shown: bool
     _gathered: Values | None
 
     @property
@@ -42,6 +46,7 @@ class GraphFace(Chainable):
         Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
         and carry ``azimuth`` and ``tap``.
         """
+        self._is_shown = True
         return self._graph.copy(as_view=True)
 
     @property
@@ -155,6 +160,66 @@ class GraphFace(Chainable):
         if self._gathered is None:
             self._gathered = Values(self._graph)
         return self._gathered
+
+    @property
+    def _graph(self) -> nx.MultiDiGraph[str]:
+        """The graph, which is its own but for what `>>` has put behind it in another path."""
+        if self._own is None:
+            self._own = editing.beginning(*self._lent)
+        return self._own
+
+    @_graph.setter
+    def _graph(self, graph: nx.MultiDiGraph[str]) -> None:
+        self._own = graph
+        self._start_chain()
+
+    def _start_chain(self) -> None:
+        # The only open way out where known, who has lent the graph, and what was lent of it.
+        self._tip: tuple[str, str] | None = None
+        self._lenders: list[ref[GraphFace]] = []
+        self._lent: tuple[nx.MultiDiGraph[str], int, dict[str, Any]]
+        self._is_shown = False
+
+    def _lent_graph(self) -> Self:
+        """Return a path with the graph of this one, to put more behind it.
+
+        A chain takes no time then that grows with its length. Of the graph, this path keeps the
+        beginning, and makes a copy of that should anybody ask.
+        """
+        if self._is_shown:
+            return self._with(self._graph.copy())
+        graph = self._graph
+        path = self._with(graph)
+        lenders = [lender for lender in self._lenders if lender() is not None]
+        path._lenders = [*lenders, ref(self)]  # noqa: SLF001 - its own
+        self._lent, self._own = (graph, len(graph), dict(graph.graph)), None
+        self._gathered, self._lenders = None, []
+        return path
+
+    def _changing(self) -> nx.MultiDiGraph[str]:
+        """Return the graph for a change, which no other path sees."""
+        for lender in self._lenders:
+            if (path := lender()) is not None:
+                path._graph = path._graph  # noqa: SLF001 - makes the copy
+        self._lenders, self._tip = [], None
+        return self._graph
+
+    @property
+    def _open_end(self) -> tuple[str, str] | None:
+        """The only open way out, if there is one."""
+        if self._tip is None:
+            with suppress(PathError):
+                self._tip = editing.open_port(self._graph, out=True)
+        return self._tip
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = {**vars(self), "_own": self._graph, "_lenders": []}
+        state.pop("_lent", None)
+        return state
+
+    def _with(self, graph: nx.MultiDiGraph[str]) -> Self:
+        """Return a path like it with another graph."""
+        raise NotImplementedError
 
 
 def wiring_at_defaults(known: Values, values: dict[str, Any]) -> Wiring:

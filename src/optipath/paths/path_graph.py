@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
 
@@ -171,7 +170,7 @@ class PathGraph(GraphFace):
         PathError
             If the name is taken or not allowed, or a port does not exist.
         """
-        editing.add(self._graph, name, element, frames)
+        editing.add(self._changing(), name, element, frames)
         self._changed()
         return Node(self, name)
 
@@ -195,7 +194,7 @@ class PathGraph(GraphFace):
         PathError
             If a port does not exist or runs the other way, or the link is there already.
         """
-        editing.connect(self._graph, leaves, enters, azimuth, tap)
+        editing.connect(self._changing(), leaves, enters, azimuth, tap)
         self._changed()
 
     def disconnect(self, leaves: str, enters: str | None = None) -> None:
@@ -212,7 +211,7 @@ class PathGraph(GraphFace):
         PathError
             If there is no such link, or there are several.
         """
-        editing.disconnect(self._graph, leaves, enters)
+        editing.disconnect(self._changing(), leaves, enters)
         self._changed()
 
     def insert(
@@ -279,7 +278,7 @@ class PathGraph(GraphFace):
         self._edit(editing.remove, name)
         if self.choices:
             left = {word: choice for word, choice in self.choices.items() if choice.node != name}
-            self._graph.graph["choices"] = left
+            self._changing().graph["choices"] = left
 
     def replace(self, name: str, element: Element) -> Node:
         """Put another element in the place of one; its links and world frames stay.
@@ -341,7 +340,7 @@ class PathGraph(GraphFace):
             raise PathError(f"choice or parameter '{name}' is there already; use another name")
         choice = PlaceChoice(node, behind, help)
         PathError.raise_for(choice_faults(self._graph, choice))
-        self._graph.graph["choices"] = self.choices | {name: choice}
+        self._changing().graph["choices"] = self.choices | {name: choice}
         self._plans.clear()
 
     def __rshift__(self, behind: Element | NamedElement | PathGraph) -> Self:
@@ -352,8 +351,14 @@ class PathGraph(GraphFace):
         others = begun(behind)
         if twice := sorted(self.cases.keys() & others.cases.keys()):
             raise PathError(f"case '{twice[0]}' stands on both sides of >>; take one of them out")
-        path = copy(self)
-        names = editing.join(path._graph, others._graph)
+        path = self._lent_graph()
+        try:
+            names = editing.join(path._graph, others._graph, self._tip)
+        except PathError:
+            self._graph = path._graph
+            raise
+        tip = others._open_end
+        path._tip = tip and (names[tip[0]], tip[1])
         path.description = self.description or others.description
         for name, case in others.cases.items():
             published = {names.get(end, end): light for end, light in case.published.items()}
@@ -757,12 +762,12 @@ class PathGraph(GraphFace):
         return f"<{type(self).__name__} with {nodes} nodes and {links} links>"
 
     def _edit(self, change: Callable[..., None], *arguments: Any) -> None:
-        editing.edit(self._graph, lambda graph: change(graph, *arguments))
+        editing.edit(self._changing(), lambda graph: change(graph, *arguments))
         self._changed()
 
     def _append(self, port: str, others: PathGraph) -> str:
         """Add other elements behind a port, and return the name of the last of them."""
-        last = editing.append(self._graph, port, others._graph)
+        last = editing.append(self._changing(), port, others._graph)
         self._changed()
         return last
 
