@@ -94,7 +94,7 @@ def test_no_elements_of_a_loop_found_by_climbing_violate_a_bound(kind, end, insi
         better = found > best
         best[better], J[:, better] = found[better], tried[:, better]
     # One element is met on each round: nothing is known better.
-    assert best.max() > (0.999 if (inside, behind) == (1, 0) else 0.2)
+    assert best.max() > (0.999 if (inside, behind) == (1, 0) else 0.02)
 
 
 @rows("seed", range(60))
