@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from optipath.engines.draft import DraftStep
     from optipath.kernels.carriers.structures import Structure
     from optipath.kernels.kernel import Kernel
+    from optipath.kernels.primitives import KernelFunction
     from optipath.values.operands import Operation
 
 
@@ -354,8 +355,7 @@ class Facts:
             if number is None:
                 return None
             numbers.append(number)
-        kernel: Any = operation.kernel
-        return _evaluated(kernel, tuple(numbers))
+        return _evaluated(operation.kernel, numbers)
 
     def action(self, item: Item) -> Action:
         """Return what an item makes of components."""
@@ -430,11 +430,16 @@ def _open_numbers(kernel: Kernel, signs: tuple[Entry, ...]) -> tuple[Entry, ...]
     return tuple([number if isfinite(number) else None for number in outcome])
 
 
-def _evaluated(kernel: Kernel, numbers: Any) -> tuple[float, ...] | None:
+def _evaluated(kernel: Any, numbers: Any) -> tuple[float, ...] | None:
     try:
-        return tuple(map(float, kernel.made_for(FLOAT)(*numbers)))
+        return tuple(map(float, _of_floats(kernel)(*numbers)))
     except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
         return None
+
+
+@lru_cache(256)
+def _of_floats(kernel: Kernel) -> KernelFunction:
+    return kernel.made_for(FLOAT)
 
 
 def number_of(operand: Operand) -> float | None:

@@ -59,7 +59,9 @@ _OF_NUMPY: dict[Any, Callable[..., Any]] = {
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
 
-_SAID = ("name", "unit", "minimum", "maximum", "help", "words", "optional", "bound")
+_said = operator.itemgetter(
+    "name", "unit", "minimum", "maximum", "help", "words", "optional", "bound"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -235,9 +237,8 @@ class Parameter:
 
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
-        mine, its = vars(self), vars(other)
         return self is other or (
-            all(mine[name] == its[name] for name in _SAID) and same(self.default, other.default)
+            bool(_said(vars(self)) == _said(vars(other))) and same(self.default, other.default)
         )
 
     def __eq__(self, other: object) -> bool:
