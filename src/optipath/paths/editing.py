@@ -303,13 +303,34 @@ def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
     return graph.nodes[name]["element"]  # type: ignore[no-any-return]
 
 
-def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> None:
+def edit(graph: nx.MultiDiGraph, change: Callable[..., None], *arguments: Any) -> None:
     """Change a graph in place, or raise and leave it as it was."""
+    try:
+        _try(graph.subgraph(_near(graph, arguments)), change, *arguments)
+    except PathError:
+        _try(graph, change, *arguments)  # Whose sentence knows all that is there.
+    change(graph, *arguments)
+
+
+def _try(graph: nx.MultiDiGraph, change: Callable[..., None], *arguments: Any) -> None:
     trial = graph.copy()
-    change(trial)
+    change(trial, *arguments)
     known = placement_faults(Wiring(graph))
     PathError.raise_for([fault for fault in placement_faults(Wiring(trial)) if fault not in known])
-    change(graph)
+
+
+def _near(graph: nx.MultiDiGraph, arguments: Iterable[Any]) -> Iterable[str]:
+    """Return what a change may concern: its nodes and those near them, or all if some are placed.
+
+    Frames in the world are compared along ways of any length.
+    """
+    if Wiring(graph).placed:
+        return list(graph)
+    near = {text.partition(".")[0] for text in arguments if isinstance(text, str)}
+    for _ in range(2):
+        known = [name for name in near if name in graph]
+        near.update(*[[*graph.predecessors(name), *graph.successors(name)] for name in known])
+    return near
 
 
 def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:

@@ -762,7 +762,7 @@ class PathGraph(GraphFace):
         return f"<{type(self).__name__} with {nodes} nodes and {links} links>"
 
     def _edit(self, change: Callable[..., None], *arguments: Any) -> None:
-        editing.edit(self._changing(), lambda graph: change(graph, *arguments))
+        editing.edit(self._changing(), change, *arguments)
         self._changed()
 
     def _append(self, port: str, others: PathGraph) -> str:
