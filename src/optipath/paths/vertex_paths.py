@@ -73,7 +73,7 @@ def path_from_vertices(
     vertices : array_like, shape (..., m + 2, 3), Parameter or VerticesByAngles
         The points from the light to the eye, in the unit of any length; legs within 1e-70 and
         1e70. A parameter is given arrays of this shape when the path runs. An array of floats is
-        used where it stands: leave it as it is while the path is in use, or give a copy.
+        used where it stands: leave it as it is while the path and its light are in use.
     materials : sequence of m float, complex, array_like, Material or Parameter
         The index of refraction on the other side of each surface, in order from the light. Light
         that is reflected stays in its medium; light that is refracted goes on in this one, which
@@ -188,7 +188,7 @@ def _count(told: Any, media: Sequence[Any], vertices: Any, parts: Mapping[str, A
     if not own and told is None:
         raise ValueFault("ids is a parameter; say how many vertices chains have, count=...")
     if told is not None and own and told != own[0]:
-        by = "ids" if ids else "events or vertices" if parts["ids"] is not None else "materials"
+        by = "materials" if parts["ids"] is None else "ids" if ids else "events or vertices"
         raise ValueFault(f"count is {told}, but {by} say {own[0]}; leave it out")
     return int(told or own[0])
 
