@@ -152,6 +152,13 @@ def test_what_cannot_be_given_later_is_told_at_once(others, message):
         op.path_from_vertices(LATER["points"], [1.5, 1.2 + 2j], **others)
 
 
+def test_a_range_of_the_parameter_is_kept():
+    points, index = random_chains(3, 3), [1.5, 1.4, 1.3]
+    path = op.path_from_vertices(points, index, lengths=op.Parameter("l", maximum=2))
+    with pytest.raises(op.errors.ParameterError, match="parameter 'l' .*3"):
+        path.trace(l=3)
+
+
 def test_values_of_jax_are_traced_through_points_alone(jax):
     path, whole = path_of(BATCH, PARTS, count=3, bad="mask"), given(BATCH)
     light = path.trace(**whole | {"points": jax.numpy.asarray(whole["points"])})

@@ -29,6 +29,7 @@ from optipath.values.arrays import broadcast_fault, locked, read_only
 from optipath.values.curve_value import CurveValue
 from optipath.values.domains import Domain
 from optipath.values.parameters import THERE, Parameter, Resolved
+from optipath.values.precision import ENDLESS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -55,7 +56,10 @@ class HistoryParameter(Parameter):
     count: int = 0
 
     def resolve(self, raw: Any, limits: tuple[float, float] | None = None) -> Resolved:
-        return Resolved(read_part(self.what, raw, self.count), THERE)
+        numbers = read_part(self.what, raw, self.count)
+        if self.what != "events" and (self.minimum, self.maximum) != ENDLESS:
+            self._check_range(numbers)
+        return Resolved(numbers, THERE)
 
     def _read_default(self) -> None:
         default = None if self.default is None else read_only(self.default)

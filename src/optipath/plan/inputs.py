@@ -70,8 +70,9 @@ class Inputs:
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
                     faults += of_complex(fault.faults, self.uses, name, value)
-        with ValueFault.collecting(faults):
-            resolved |= computed_values(self.computed, resolved)
+        if self.computed:
+            with ValueFault.collecting(faults):
+                resolved |= computed_values(self.computed, resolved)
         results: dict[str, tuple[int, ...]] = {}
         refused: set[str] = set()
         for use in self.distinct_uses:
