@@ -70,9 +70,7 @@ class Inputs:
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
                     faults += of_complex(fault.faults, self.uses, name, value)
-        if self.computed:
-            with ValueFault.collecting(faults):
-                resolved |= computed_values(self.computed, resolved)
+        resolved |= self._computed_of(resolved, faults) if self.computed else {}
         results: dict[str, tuple[int, ...]] = {}
         refused: set[str] = set()
         for use in self.distinct_uses:
@@ -107,6 +105,14 @@ class Inputs:
         if faults:
             raise ParameterError(*faults)
         return resolved, joint_shape(*shapes.values())
+
+    def _computed_of(
+        self, resolved: Mapping[str, Resolved], faults: list[str]
+    ) -> dict[str, Resolved]:
+        """Return what follows from numbers that are given, and collect what is wrong with them."""
+        with ValueFault.collecting(faults):
+            return computed_values(self.computed, resolved)
+        return {}
 
     def numbers_for(self, name: str, value: Any) -> Resolved:
         """Return the numbers that are given for an open parameter."""
