@@ -44,17 +44,17 @@ class Item:
         once: bool = True,
     ) -> None:
         self.label = label
+        self.operation = operation
         self.presence = presence
         self.once = once  # In no loop.
-        self.become(operation)
-
-    def become(self, operation: Operation) -> None:
-        """Let it do something else."""
-        self.operation = operation
         self.kernel: Any = operation.kernel
         # What is known of it, once that was looked up.
         self.action: Any = None
         self.constant: Any = False
+
+    def become(self, operation: Operation) -> None:
+        """Let it do something else."""
+        self.__init__(self.label, operation, self.presence, once=self.once)  # type: ignore[misc]
 
 
 class LightNode:

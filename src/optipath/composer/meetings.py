@@ -66,13 +66,16 @@ class Meetings:
 
         There is nothing to compare then, and long paths of mirrors are mostly so.
         """
-        media = set[float]()
-        for name in self._boundaries:
+        boundaries, media = self._boundaries, set[float]()
+        for start, end, (leaves, enters) in self.wiring.links:
+            if (start in boundaries and leaves != "reflected") or (
+                end in boundaries and enters != "in"
+            ):
+                return False
+        for name in boundaries:
             element: Any = self.wiring.elements[name]
             medium = element.medium_at("in")
-            used = [port for port in element.outputs if (name, port) in self._links_from]
-            used += [port for port in element.inputs if (name, port) in self.wiring.links_to]
-            if not {"in", "reflected"}.issuperset(used) or type(medium) is not float:
+            if type(medium) is not float:
                 return False
             media.add(medium)
         return len(media) < 2 and not self.wiring.cycles

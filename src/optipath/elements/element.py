@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields
+from math import copysign
 from typing import TYPE_CHECKING, Any, ClassVar, Never, Self, TypeVar, dataclass_transform, overload
 
 from optipath.elements.alone import mueller_alone
@@ -195,14 +196,13 @@ class Element(Chainable):
     @property
     def key(self) -> Hashable:
         """What equal elements share; of those with arrays, or not checked yet, each has its own."""
-        values = vars(self)
-        key: list[Any] = [type(self)]
-        for field in self.domains() if self._is_sound else ():
-            value = values[field]
-            if type(value) not in _HASHED:
-                return id(self)
-            key.append(str(value) if value == 0.0 else value)  # 0 is not -0.
-        return tuple(key) if self._is_sound else id(self)
+        own = vars(self)
+        values = [own[name] for name in self.domains()]
+        if not self._is_sound or not _HASHED.issuperset(map(type, values)):
+            return id(self)
+        # 0 is not -0.
+        signs = [copysign(1.0, value) for value in values if type(value) is float and not value]
+        return (type(self), *values, *signs)
 
     def named(self, name: str) -> NamedElement:
         """Return the element with the name of its node in a chain.
