@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import networkx as nx
 import numpy as np
@@ -323,6 +325,41 @@ def test_a_chain_changes_neither_side_nor_a_path_that_it_cannot_go_on():
     first, second = error.value.faults
     assert first == "'detector' has no way out: light ends there"
     assert second == "'source' has no way in: light begins there"
+
+
+def test_what_a_chain_grows_out_of_keeps_its_elements_and_views():
+    first = op.Source() >> op.Polarizer(0.1)
+    second = first >> op.Rotator(0.2)
+    with pytest.raises(op.errors.PathError):
+        second >> op.Source()
+    second.replace("polarizer", op.Polarizer(0.9))
+    assert first.element("polarizer") == op.Polarizer(0.1)
+    third = second >> op.Attenuator(0.5)
+    view = second.graph
+    third.add("spare", op.Mirror())
+    second >> op.Mirror()
+    assert [*view] == ["source", "polarizer", "rotator"]
+    path = op.Source() >> op.Polarizer()
+    assert [len(path >> op.Mirror().named(f"after-{name}")) for name in path] == [3, 3]
+
+
+def test_threads_let_chains_grow_out_of_one_path():
+    def grown(start, number):
+        path = start
+        for step in range(5):
+            path = path >> op.Rotator(0.1).named(f"{number}-{step}")
+        return [*path] == ["source", "polarizer", *(f"{number}-{step}" for step in range(5))]
+
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(8) as threads:
+            for _ in range(20):
+                start = op.Source() >> op.Polarizer()
+                assert all(threads.map(partial(grown, start), range(8)))
+                assert [*start] == ["source", "polarizer"]
+    finally:
+        sys.setswitchinterval(interval)
 
 
 def test_a_path_goes_on_at_its_only_open_natural_way_as_links_of_files_do(tmp_path):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import suppress
+from threading import RLock
 from typing import TYPE_CHECKING, Any, Never, Self
 from weakref import ref
 
@@ -30,13 +31,17 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
 
 
+LENDING = RLock()
+"""Held while a path grows out of another, and while what is left to that one is copied."""
+
+
 class GraphFace(Chainable):
     """What can be asked of a path that is not composed."""
 
     description: str
     cases: dict[str, Case]
     _own: nx.MultiDiGraph[str] | None
-    _is_shown: bool
+    _is_read: bool
     _gathered: Values | None
 
     @property
@@ -46,7 +51,6 @@ class GraphFace(Chainable):
         Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
         and carry ``azimuth`` and ``tap``.
         """
-        self._is_shown = True
         return self._graph.copy(as_view=True)
 
     @property
@@ -152,7 +156,8 @@ class GraphFace(Chainable):
         return iter(self._graph)
 
     def __len__(self) -> int:
-        return len(self._graph)
+        with LENDING:
+            return self._lent[1] if self._own is None else len(self._own)
 
     @property
     def _values(self) -> Values:
@@ -163,46 +168,46 @@ class GraphFace(Chainable):
 
     @property
     def _graph(self) -> nx.MultiDiGraph[str]:
-        """The graph, which is its own but for what `>>` has put behind it in another path."""
-        if self._own is None:
-            self._own = editing.beginning(*self._lent)
-        return self._own
+        """The graph; who has it may read it at any time, so that no path grows out of it then."""
+        with LENDING:
+            self._is_read = True
+            if self._own is None:
+                self._own = editing.beginning(*self._lent)
+            return self._own
 
     @_graph.setter
     def _graph(self, graph: nx.MultiDiGraph[str]) -> None:
-        self._own = graph
-        self._start_chain()
-
-    def _start_chain(self) -> None:
+        self._own, self._is_read = graph, False
         # The only open way out where known, who has lent the graph, and what was lent of it.
         self._tip: tuple[str, str] | None = None
         self._lenders: list[ref[GraphFace]] = []
         self._lent: tuple[nx.MultiDiGraph[str], int, dict[str, Any]]
-        self._is_shown = False
 
-    def _lent_graph(self) -> Self:
-        """Return a path with the graph of this one, to put more behind it.
+    def _lent_graph(self) -> tuple[Self, nx.MultiDiGraph[str]]:
+        """Return a path and its graph, that of this one, to put more behind it.
 
         A chain takes no time then that grows with its length. Of the graph, this path keeps the
         beginning, and makes a copy of that should anybody ask.
         """
-        if self._is_shown:
-            return self._with(self._graph.copy())
-        graph = self._graph
+        if self._own is None or self._is_read or self._gathered is not None:
+            graph = editing.beginning(*self._lent) if self._own is None else self._own.copy()
+            return self._with(graph), graph
+        graph = self._own
         path = self._with(graph)
         lenders = [lender for lender in self._lenders if lender() is not None]
         path._lenders = [*lenders, ref(self)]  # noqa: SLF001 - its own
         self._lent, self._own = (graph, len(graph), dict(graph.graph)), None
-        self._gathered, self._lenders = None, []
-        return path
+        self._lenders = []
+        return path, graph
 
     def _changing(self) -> nx.MultiDiGraph[str]:
         """Return the graph for a change, which no other path sees."""
-        for lender in self._lenders:
-            if (path := lender()) is not None:
-                path._graph = path._graph  # noqa: SLF001 - makes the copy
-        self._lenders, self._tip = [], None
-        return self._graph
+        with LENDING:
+            lenders, self._lenders, self._tip = self._lenders, [], None
+            for path in [lender() for lender in lenders]:
+                if path is not None and path._own is None:  # noqa: SLF001 - its own
+                    path._own = editing.beginning(*path._lent)  # noqa: SLF001
+            return self._graph
 
     @property
     def _open_end(self) -> tuple[str, str] | None:

@@ -19,7 +19,7 @@ from optipath.faults import Fault, shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
 from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
-from optipath.paths.graph_face import GraphFace, wiring_at_defaults
+from optipath.paths.graph_face import LENDING, GraphFace, wiring_at_defaults
 from optipath.paths.reversed import reversed_graph
 from optipath.values.arrays import same
 from optipath.values.parameters import check_named
@@ -351,12 +351,9 @@ class PathGraph(GraphFace):
         others = begun(behind)
         if twice := sorted(self.cases.keys() & others.cases.keys()):
             raise PathError(f"case '{twice[0]}' stands on both sides of >>; take one of them out")
-        path = self._lent_graph()
-        try:
-            names = editing.join(path._graph, others._graph, self._tip)
-        except PathError:
-            self._graph = path._graph
-            raise
+        with LENDING:
+            path, graph = self._lent_graph()
+            names = editing.join(graph, others._graph, self._tip)
         tip = others._open_end
         path._tip = tip and (names[tip[0]], tip[1])
         path.description = self.description or others.description
