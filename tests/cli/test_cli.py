@@ -13,6 +13,7 @@ from optipath.cli import main
 from optipath.cli.plot_command import KINDS
 from optipath.lab.regions import REGIONS
 from optipath.lab.tables import SEARCHED
+from optipath.paths.files.schema import presets_folder
 from tables import rows
 
 
@@ -85,9 +86,11 @@ def test_own_presets_are_listed_with_their_folder_and_a_faulty_one_with_its_faul
     assert "Malus" in told("show mine")
     (tmp_path / "presets" / "broken.toml").write_text("x = \x1b[", "utf-8")
     (tmp_path / "presets" / "malus.toml").write_text("", "utf-8")
+    copied = (presets_folder() / "senarmont.toml").read_bytes()
+    (tmp_path / "presets" / "senarmont.toml").write_bytes(copied)
     status, out, err = run("presets")
     assert (status, len(err.splitlines())) == (0, 1)
-    assert "presets/malus.toml" in err
+    assert "not found by name: 'presets/malus.toml'; the name" in err
     assert "faulty: 'presets/broken.toml' is not TOML" in " ".join(out.split())
     for line in ("run --help", "plot --help", "presets --json"):
         status, out, err = run(line)

@@ -100,7 +100,8 @@ def test_no_formula_is_compiled_twice_and_of_several_sources_the_first_gives_the
     monkeypatch.setattr(NumpyEngine, "compiled", counted)
     paths = {name: op.load_preset(name) for name in ("npgr026", "sky-and-window")}
     rates = measured(paths, elements=20, largest=2000, engines=["numpy"], long=long)
-    assert set(texts.values()) == {1}
+    # Formulas that another test made are found again.
+    assert set(texts.values()) <= {1}
     sizes = ["10", "100", "1,000", "2,000"] if long else ["2,000"]
     works = [each.work for each in rates if each.path == "sky-and-window"][3:]
     assert works == [f"{w}, {size} values, numpy" for size in sizes for w in ("light", "matrices")]
@@ -108,7 +109,7 @@ def test_no_formula_is_compiled_twice_and_of_several_sources_the_first_gives_the
 
 def test_light_that_differs_from_that_by_hand_is_an_error(monkeypatch):
     monkeypatch.setattr(composition, "walked", lambda *_: np.ones((4, 1)))
-    with pytest.raises(op.OptipathError, match="10 mixed elements: light by hand is not that of"):
+    with pytest.raises(op.OptipathError, match="light of 10 elements by hand is not that of"):
         measured({}, elements=10)
 
 

@@ -23,7 +23,6 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-    from optipath.lab.bench import Timing
     from optipath.plan.plan import Plan
 
     Array = np.ndarray[Any, np.dtype[np.float64]]
@@ -73,13 +72,13 @@ def _rotator(angle: Any) -> Array:
     return _matrix(rows)
 
 
-def _interface(incidence: Any) -> Interface:
-    return Interface(_METAL, incidence, azimuth=_TURNED)
-
-
 _METAL, _TURNED = 0.05 + 10.0j, -0.05
 _KINDS: tuple[tuple[Parameter, Callable[[Any], Any], Callable[[Any], Array]], ...] = (
-    (Parameter("incidence", 0.55, "rad", 0.5, 0.6), _interface, _reflection),
+    (
+        Parameter("incidence", 0.55, "rad", 0.5, 0.6),
+        partial(Interface, _METAL, azimuth=_TURNED),
+        _reflection,
+    ),
     (Parameter("axis", 0.05, "rad", 0.0, 0.1), Polarizer, _polarizer),
     (Parameter("turn", -0.05, "rad", -0.1, 0.0), Rotator, _rotator),
 )
@@ -125,27 +124,6 @@ class Rates(NamedTuple):
     by_hand_median: float | None = None
 
 
-class _Work(NamedTuple):
-    """What one call does so many times, and the calls by optipath and by hand."""
-
-    path: str
-    name: str
-    times: int
-    action: Action
-    by_hand: Action | None
-
-    def rates(self, timings: Mapping[str, Timing]) -> Rates:
-        """Return how many are done a second."""
-        found = [timings[key] for key in self.contenders()]
-        seconds = [each for timing in found for each in (timing.least, timing.middle)]
-        return Rates(self.path, self.name, *(self.times / each for each in seconds))
-
-    def contenders(self) -> dict[str, Action]:
-        """Return the calls by name."""
-        name = f"{self.path}: {self.name}"
-        return {name: self.action} | ({f"{name}, by hand": self.by_hand} if self.by_hand else {})
-
-
 def measured(
     paths: Mapping[str, PathGraph],
     *,
@@ -161,62 +139,78 @@ def measured(
     composers = {name: Composer(engine=name, threads=threads) for name in names}
     largest = largest or (1_000_000 if long else 10_000)
     sizes = [*(10**power for power in range(1, len(str(largest - 1)) * long)), largest]
-    counts = dict.fromkeys([elements, 10, *((100, 10_000) if long else ())])
     pairs: dict[str, tuple[PathGraph, nx.DiGraph | None]] = {
-        **{f"{count:,} mixed elements": mixed_path(count) for count in counts},
-        **{name: (path, None) for name, path in paths.items()},
+        f"{count:,} mixed elements": mixed_path(count)
+        for count in (elements, 10, *((100, 10_000) if long else ()))
     }
-    works = [work for name, pair in pairs.items() for work in _works(name, *pair, sizes, composers)]
-    contenders = {name: call for work in works for name, call in work.contenders().items()}
+    pairs |= {name: (path, None) for name, path in paths.items()}
+    works: dict[str, tuple[Any, ...]] = {
+        f"{name}: {work}": (name, work, *about)
+        for name, pair in pairs.items()
+        for work, *about in _works(*pair, sizes, composers)
+    }
+    contenders: dict[str, Action] = {
+        key + who: action
+        for key, (*_, action, by_hand) in works.items()
+        for who, action in zip(_WHO, (action, by_hand), strict=True)
+        if action
+    }
     gc.freeze()  # Or composing one path pays for a look through the objects of all.
-    timings = race(contenders, tick=progress)
-    gc.unfreeze()
-    return [work.rates(timings) for work in works]
+    try:
+        timings = race(contenders, tick=progress)
+    finally:
+        gc.unfreeze()
+    results = []
+    for key, (name, work, times, *_) in works.items():
+        found = [timings[key + who] for who in _WHO if key + who in timings]
+        rates = [times / seconds for _, *of_call in found for seconds in of_call]
+        results.append(Rates(name, work, *rates))
+    return results
 
+
+_WHO = "", ", by hand"
+_MOST = 1_000_000
+"""Of how many values at once there are matrices by hand, of 128 bytes each."""
 
 _LONG = 50
 """From how many elements on these are counted, and light is that of one value."""
 
 
 def _works(
-    name: str,
     path: PathGraph,
     graph: nx.DiGraph | None,
     sizes: Sequence[int],
     composers: Mapping[str, Composer],
-) -> Iterator[_Work]:
-    """Yield what is measured of a path; light by hand is compared with that of optipath."""
+) -> Iterator[tuple[str, int, Action, Action | None]]:
+    """Yield what is measured, how often a call does it, and the call by optipath and by hand."""
 
     def by_hand(values: Mapping[str, Any], start: Array) -> Action | None:
-        return partial(walked, graph, values, start) if graph else None
+        fits = graph and np.size(next(iter(values.values()))) <= _MOST
+        return partial(walked, graph, values, start) if fits else None
 
     plan, compose, length = Composer().compose(path), Composer().compose, len(path)
     ends = next(iter(plan.whole.sources)), next(iter(plan.whole.readings))
     one = {name: float(value[0]) for name, value in random_values(plan, 1).items()}
     light, matrix = by_hand(one, LIGHT), by_hand(one, MATRIX)
     if light and not np.allclose(light()[:, 0], plan.run(**one).stokes, rtol=1e-9, atol=0.0):
-        raise OptipathError(f"{name}: light by hand is not that of optipath")
+        raise OptipathError(f"light of {length} elements by hand is not that of optipath")
     what, times = ("elements", length) if length >= _LONG else ("paths", 1)
-    yield _Work(name, f"{what} composed", times, partial(compose, path), light)
-    yield _Work(name, f"{what} composed and run", times, lambda: _run(compose(path))(**one), light)
-    yield _Work(name, "light, one value", 1, partial(_run(plan), **one), light)
+    yield f"{what} composed", times, partial(compose, path), light
+    yield f"{what} composed and run", times, lambda: _run(compose(path))(**one), light
+    yield "light, one value", 1, partial(_run(plan), **one), light
     elements = [node["element"] for _, node in path.graph.nodes(data=True)]
     matrices = sum(bool(each.inputs and each.outputs) for each in elements)
     if length >= _LONG:
-        product = partial(plan.mueller, *ends, **one)
-        yield _Work(name, "matrices, one value", matrices, product, matrix)
+        yield "matrices, one value", matrices, partial(plan.mueller, *ends, **one), matrix
         return
     for engine, composer in composers.items():
         plan = composer.compose(path)
         for size in sizes:
             about, values = f"{size:,} values, {engine}", random_values(plan, size)
             action = partial(_finished, partial(_run(plan), **values))
-            yield _Work(name, f"light, {about}", size, action, by_hand(values, LIGHT))
-            action, times = (
-                partial(_finished, partial(plan.mueller, *ends, **values)),
-                matrices * size,
-            )
-            yield _Work(name, f"matrices, {about}", times, action, by_hand(values, MATRIX))
+            yield f"light, {about}", size, action, by_hand(values, LIGHT)
+            action = partial(_finished, partial(plan.mueller, *ends, **values))
+            yield f"matrices, {about}", matrices * size, action, by_hand(values, MATRIX)
 
 
 def _run(plan: Plan) -> Callable[..., Any]:
