@@ -5,6 +5,7 @@ import runpy
 import subprocess
 import sys
 import tomllib
+import traceback
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
@@ -186,8 +187,11 @@ def test_unknown_names_are_told_and_known_ones_bring_no_compiler():
     assert brought_by(used, ["numba", "tifffile"]) == "[]"
     with pytest.raises(AttributeError, match="'HeigtField'; did you mean 'HeightField'"):
         _ = op.surfaces.HeigtField
-    with pytest.raises(AttributeError, match="has no attribute 'Sorce'; did you mean 'Source'"):
+    with pytest.raises(
+        AttributeError, match="has no attribute 'Sorce'; did you mean 'Source'"
+    ) as wrong:
         _ = op.Sorce
+    assert traceback.format_exception_only(wrong.value)[0].endswith("did you mean 'Source'?\n")
 
 
 @rows(

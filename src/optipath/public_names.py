@@ -61,4 +61,5 @@ def _other(package: str, name: str, home_of: Mapping[str, str]) -> Any:
     cure = f"; did you mean {places[near]}?" if near else ""
     cure = f"; it is {places[name]}" if name in places else cure
     wrong = f"module '{package}' has no attribute '{name}'{cure}"
-    raise AttributeError(wrong, name=name, obj=sys.modules[package])
+    # With an object, Python would add a name of its own to the one above.
+    raise AttributeError(wrong, name=name)

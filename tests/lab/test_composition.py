@@ -84,6 +84,8 @@ def test_rates_are_of_elements_of_long_paths_and_of_short_paths_and_of_what_is_g
     # Three elements of the preset pass light on; formulas by hand are those of mixed paths.
     assert own["matrices, 10,000 values, numpy"][2:] == (15_000.0, 7_500.0, None, None)
     assert len(told) == 2 * (len(long) + len(short)) + len(own)
+    closed = measured({"closed": op.Source() >> op.Detector()}, engines=["numpy"])
+    assert [each.work for each in closed if each.path == "closed"] == works[:3]
 
 
 @pytest.mark.usefixtures("once")

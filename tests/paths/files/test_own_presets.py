@@ -39,6 +39,7 @@ def test_a_name_is_that_of_the_library_then_of_this_folder_then_of_those_listed(
     preset(here, "mine", 0.5)
     preset(there, "other-2", 0.125)
     preset(here, "malus", 0.75)
+    preset(here, ".hidden", 1.0)
     assert (intensity("mine"), intensity("other-2")) == (0.5, 0.125)
     assert op.load_preset("malus") == op.load_preset(presets_folder() / "malus.toml")
     assert op.preset_names() == sorted([*names, "mine", "other-2"])

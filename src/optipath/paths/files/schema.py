@@ -162,8 +162,8 @@ def parsed(text: str, source: str) -> dict[str, Any]:
 
 
 def files_in(folder: Path) -> dict[str, Path]:
-    """Return the files of a folder by name, sorted; none where there is no such folder."""
-    return dict(sorted((path.stem, path) for path in folder.glob("*.toml")))
+    """Return the files of a folder by name, sorted, but hidden ones; none where it is none."""
+    return dict(sorted((path.stem, path) for path in folder.glob("[!.]*.toml")))
 
 
 def is_name(text: str) -> bool:
