@@ -221,6 +221,14 @@ def test_the_graph_of_a_path_is_taken_with_edges_that_networkx_adds():
     assert op.PathGraph.from_networkx(graph) == path
 
 
+def test_texts_of_arrays_of_names_go_into_graphml():
+    graph = malus()
+    nx.set_node_attributes(graph, dict(zip(graph, np.array(["a", "b", "c"]), strict=True)), "group")
+    text = op.PathGraph.from_networkx(graph).to_networkx(text=True)
+    read = nx.parse_graphml("\n".join(nx.generate_graphml(text)))
+    assert [*read.nodes(data="group")] == [("lamp", "a"), ("filter", "b"), ("eye", "c")]
+
+
 def test_a_second_link_between_two_ports_is_refused():
     graph = nx.MultiDiGraph(malus())
     graph.add_edge("lamp", "filter", out_port="out")

@@ -87,8 +87,8 @@ def with_texts(graph: nx.MultiDiGraph) -> nx.MultiDiGraph:
         if "frames" in node:
             node["frames"] = str(node["frames"])
     for about in (graph.graph, *graph.nodes.values(), *graph.edges.values()):
-        odd = {name: one for name, one in about.items() if not isinstance(one, (str, int, float))}
-        about |= {name: shown(one) for name, one in odd.items()}
+        odd = {name: one for name, one in about.items() if not isinstance(one, (int, float))}
+        about |= {n: str(one) if isinstance(one, str) else shown(one) for n, one in odd.items()}
     return graph
 
 
