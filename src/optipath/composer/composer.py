@@ -50,10 +50,10 @@ def checked(
     values: Values, loops: str | None = None, keep: str = KEEPABLE[0]
 ) -> tuple[Values, Wiring, Media]:
     """Return the values, wiring and media of a path, or raise with all that is wrong with it."""
-    graph, faults = with_followed(values.graph)
+    graph, faults = with_followed(values.graph) if values.has_followers else (values.graph, [])
     values = values if graph is values.graph else Values(graph)
     wiring = Wiring(graph, loops, keep)
-    wiring.alike = values.alike
+    wiring.alike, wiring.distinct = values.alike, values.distinct
     media = Media(wiring)
     # In a cycle by mistake, light meets media and misses ends in consequence.
     cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring))

@@ -141,18 +141,25 @@ class Media:
     @property
     def _within(self) -> Iterator[Agreement]:
         """What must fit of the values of one element."""
-        for name, element in self.elements.items():
-            if type(element).agreements is not Element.agreements:
-                yield from element.agreements(name)
+        wiring = self.meetings.wiring
+        own = {
+            id(e) for e in wiring.distinct.values() if type(e).agreements is not Element.agreements
+        }
+        for name, element in wiring.alike.items() if own else ():
+            if id(element) in own:
+                yield from self.elements[name].agreements(name)
 
     @property
     def _arriving(self) -> Iterator[Agreement]:
         """What must hold of light that comes out of media that absorb."""
-        for name in sorted(self.meetings.faces):
-            element = self.elements[name]
-            for port in sorted(element.inputs):
-                if waves := arriving_waves(name, element, port):
-                    yield from waves if self.meetings.wiring.is_lit(name, port) else ()
+        wiring = self.meetings.wiring
+        elements = [e for e in wiring.distinct.values() if isinstance(e, BoundaryElement)]
+        absorbs = {id(e) for e in elements if any(arriving_waves("", e, port) for port in e.inputs)}
+        names = [name for name, e in wiring.alike.items() if id(e) in absorbs] if absorbs else []
+        for name in sorted(names):
+            for port in sorted(self.elements[name].inputs):
+                if wiring.is_lit(name, port):
+                    yield from arriving_waves(name, self.elements[name], port)
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""

@@ -72,12 +72,12 @@ class Meetings:
                 end in boundaries and enters != "in"
             ):
                 return False
-        for name in boundaries:
-            element: Any = self.wiring.elements[name]
-            medium = element.medium_at("in")
-            if type(medium) is not float:
-                return False
-            media.add(medium)
+        for element in self.wiring.distinct.values():
+            if isinstance(element, MediaOfBoundary):
+                medium = element.medium_at("in")
+                if type(medium) is not float:
+                    return False
+                media.add(medium)
         return len(media) < 2 and not self.wiring.cycles
 
     @cached_property

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import link_text
+from optipath.elements.boundary_media import MediaOfBoundary
 from optipath.elements.element import Element, alike
 from optipath.elements.own_element import couplings_of
 from optipath.errors import ValueFault
@@ -46,15 +47,26 @@ class Values:
         return alike(dict(self.graph.nodes(data="element")))
 
     @cached_property
+    def distinct(self) -> dict[str, Element]:
+        """The elements of which none is equal to another, each by its first name."""
+        firsts: dict[int, str] = {}
+        for name, element in self.alike.items():
+            firsts.setdefault(id(element), name)
+        return {name: self.alike[name] for name in firsts.values()}
+
+    @property
+    def has_followers(self) -> bool:
+        """Whether an element takes over what another one has."""
+        elements = self.distinct.values()
+        return any(isinstance(e, MediaOfBoundary) and e.followed() for e in elements)
+
+    @cached_property
     def uses(self) -> tuple[Use, ...]:
         """Each number where it stands."""
         results: list[Use] = []
         # Of equal elements the first says what their values are, and what is wrong with them.
-        seen = set[int]()
-        for name, element in self.alike.items():
-            if id(element) not in seen:
-                seen.add(id(element))
-                results += element.uses(name)
+        for name, element in self.distinct.items():
+            results += element.uses(name)
         results += self._entered()
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
@@ -74,11 +86,14 @@ class Values:
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
-        elements = self.graph.nodes(data="element")
-        asked = {n for n, e in elements if type(e).uses_entered is not Element.uses_entered}
-        links = self.graph.edges(keys=True) if asked else ()
-        entries = dict.fromkeys([(end, key[1]) for _, end, key in links if end in asked])
-        return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
+        distinct = self.distinct.values()
+        asked = {id(e) for e in distinct if type(e).uses_entered is not Element.uses_entered}
+        entries: dict[tuple[int, str], str] = {}
+        for _, end, key in self.graph.edges(keys=True) if asked else ():
+            if (which := id(self.alike[end])) in asked:
+                entries.setdefault((which, key[1]), end)
+        every = [(name, port) for (_, port), name in entries.items()]
+        return [use for name, port in every for use in self.alike[name].uses_entered(name, port)]
 
     @cached_property
     def _known(self) -> list[tuple[Use, Any]]:

@@ -329,9 +329,6 @@ def label_of(items: Sequence[Item]) -> str:
     return f"{names[0].split(' .. ')[0]} .. {names[-1].split(' .. ')[-1]}"
 
 
-_TURNS = (TURN, TURN_BACK)
-
-
 def joined_turns(flow: Flow, *, sums: bool) -> list[str]:
     """Make neighbouring turns one."""
     notes: list[str] = []
@@ -360,7 +357,7 @@ def joined_turns(flow: Flow, *, sums: bool) -> list[str]:
         return results
 
     for node in flow.chains:
-        turns = [item.kernel in _TURNS for item in node.items]
+        turns = [item.kernel is TURN or item.kernel is TURN_BACK for item in node.items]
         if True in map(and_, turns, turns[1:]):
             node.items = joined(node.items)
     return notes
@@ -368,8 +365,12 @@ def joined_turns(flow: Flow, *, sums: bool) -> list[str]:
 
 def _is_turn(item: Item) -> bool:
     operation = item.operation
-    known = item.presence is None and operation.kernel in _TURNS
-    return known and all(type(argument) is Operand for argument in operation.arguments)
+    turns = operation.kernel is TURN or operation.kernel is TURN_BACK
+    return (
+        turns
+        and item.presence is None
+        and all(type(argument) is Operand for argument in operation.arguments)
+    )
 
 
 def _as_one(first: Operation, second: Operation, *, sums: bool) -> Operation | None:

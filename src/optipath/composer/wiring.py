@@ -132,6 +132,13 @@ class Wiring:
         """For each node, the first element that is equal to its own."""
         return alike(self.elements)
 
+    @cached_property
+    def distinct(self) -> dict[str, Element]:
+        """The elements of which none is equal to another, each by the name of a node."""
+        return {
+            name: self.alike[name] for name in {id(e): n for n, e in self.alike.items()}.values()
+        }
+
     def own_ways(self, method: str = "stable") -> list[OwnWays]:
         """Return the ways through elements of a user's own that are to be looked at."""
         own = [(name, self.elements[name], self.couplings[name]) for name in self._own]

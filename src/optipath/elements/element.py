@@ -87,10 +87,12 @@ class NamedElement(Chainable):
 def alike(elements: Mapping[str, Element]) -> dict[str, Element]:
     """Return for each name the first of the elements that are equal to its own."""
     known: dict[Hashable, Element] = {}
+    firsts: dict[int, Element] = {}
     results: dict[str, Element] = {}
     for name, element in elements.items():
-        key = id(element) if id(element) in known else element.key
-        results[name] = known.setdefault(key, element)
+        if (first := firsts.get(id(element))) is None:
+            first = firsts[id(element)] = known.setdefault(element.key, element)
+        results[name] = first
     return results
 
 
