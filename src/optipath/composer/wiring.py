@@ -141,13 +141,10 @@ class Wiring:
 
     def own_ways(self, method: str = "stable") -> list[OwnWays]:
         """Return the ways through elements of a user's own that are to be looked at."""
-        own = [(name, self.elements[name], self.couplings[name]) for name in self._own]
-        return [way for each in own for way in own_ways(*each, method)]
-
-    @cached_property
-    def _own(self) -> list[str]:
-        """The nodes whose elements are of a user's own classes."""
-        return [name for name, element in self.elements.items() if is_own(type(element))]
+        own = {id(e) for e in self.distinct.values() if is_own(type(e))}
+        names = [name for name, e in self.alike.items() if id(e) in own] if own else []
+        each = [own_ways(name, self.elements[name], self.couplings[name], method) for name in names]
+        return [way for ways in each for way in ways]
 
     @cached_property
     def links_to(self) -> dict[Port, list[Link]]:
