@@ -72,6 +72,10 @@ def renamed(node, word):
         (in_edge(out_port="in"), "edge ('lamp', 'filter'): out_port 'in' is no out-port of 'lamp'"),
         (in_edge(in_port=3), "edge ('lamp', 'filter'): in_port 3 is no in-port of 'filter'"),
         (in_edge(outport="out"), "edge ('lamp', 'filter') has an attribute 'outport'; did you mea"),
+        *(
+            (in_edge(**{word: "out"}), f"'{word}'; did you mean 'out_port' or 'in_port'?")
+            for word in ("port", "from_port", "to_port", "target-port", "inn_port")
+        ),
         (in_edge(azimuht=0.1), "did you mean 'azimuth'?"),
         (in_edge(azimuth="red"), "link 'lamp.out -> filter.in' azimuth: 'red' is not a quantity"),
         (in_edge(azimuth=np.nan), "link 'lamp.out -> filter.in' azimuth is nan; give a finite an"),
@@ -152,6 +156,8 @@ def test_attributes_of_others_are_kept_and_say_nothing():
             "tag": 1,
             "key": 1,
             "attr": 2,
+            "transport": 3,
+            "port_of_call": 4,
         }
     path = op.PathGraph.from_networkx(graph)
     there_again = path.to_networkx()
@@ -196,7 +202,7 @@ def test_a_choice_that_does_not_fit_is_named():
 
 def test_lengths_of_links_are_kept_in_metres_and_change_no_light():
     graph = malus()
-    in_edge(length="5 mm", azimuth="30 deg", tap=False)(graph)
+    in_edge(length="5 mm", azimuth="30 deg", tap=np.False_)(graph)
     there_again = op.PathGraph.from_networkx(graph).to_networkx()
     about = there_again.edges["lamp", "filter", 0]
     assert about == {
@@ -219,6 +225,14 @@ def test_the_graph_of_a_path_is_taken_with_edges_that_networkx_adds():
     path.add("eye", op.Detector())
     path.connect("bs.transmitted", "eye")
     assert op.PathGraph.from_networkx(graph) == path
+
+
+def test_a_path_whose_ports_are_said_has_other_attributes_like_them():
+    graph = malus()
+    in_edge(out_port="out", in_port="in", outport=3, port=4)(graph)
+    path = op.PathGraph.from_networkx(graph)
+    for again in (path.graph, path.to_networkx()):
+        assert op.PathGraph.from_networkx(again) == path
 
 
 def test_texts_of_arrays_of_names_go_into_graphml():

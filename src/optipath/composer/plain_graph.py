@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from difflib import SequenceMatcher
 from typing import TYPE_CHECKING, Any
 
 import networkx as nx
+import numpy as np
 
 from optipath.composer.wiring import LOOPS, link_text
 from optipath.elements.element import Element, natural_of
@@ -170,7 +172,12 @@ def _node_faults(name: Any, about: Mapping[Any, Any]) -> Iterator[str]:
 def _misspelt(owner: str, about: Mapping[Any, Any], known: Collection[str]) -> Iterator[str]:
     """Yield the attributes that are meant for known ones, of which nothing is said."""
     for word in about:
-        if isinstance(word, str) and word not in known and (near := closest(word, known)):
+        if not isinstance(word, str) or word in known:
+            continue
+        if known is _LINK and re.search(r"(\b|_)port$", word.lower()):
+            if any(_is_unset(about.get(port)) for port in _PORTS):
+                yield f"{owner} has an attribute '{word}'; did you mean 'out_port' or 'in_port'?"
+        elif near := closest(word, known):
             letters = word.lower()
             alike = letters[0] == near[0] or SequenceMatcher(None, letters, near).ratio() >= _ALIKE
             # Three letters are soon alike: `tag` is no `tap`.
@@ -201,7 +208,8 @@ def _add_links(graph: nx.DiGraph, result: nx.MultiDiGraph, faults: list[str]) ->
         if about.keys() <= _PORTS:
             result.add_edge(*link, azimuth=None, tap=False)
         else:
-            result.add_edges_from([(*link, _others(link, edge, about, faults))])
+            said = {**about, "out_port": leaves, "in_port": enters}
+            result.add_edges_from([(*link, _others(link, edge, said, faults))])
 
 
 def _others(
@@ -220,9 +228,9 @@ def _others(
         if value is not None or name == "azimuth":
             result[name] = value
     tap = about.get("tap")
-    if not isinstance(tap, bool | None):
+    if not isinstance(tap, bool | np.bool_ | None):
         faults.append(f"{named} tap must be True or False, not {shown(tap)}")
-    return result | {"tap": tap is True}
+    return result | {"tap": isinstance(tap, bool | np.bool_) and bool(tap)}
 
 
 def _text(edge: list[Any]) -> str:
