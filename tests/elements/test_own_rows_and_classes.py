@@ -1,5 +1,6 @@
 """Classes and rows of elements of a user's own: the same numbers in every run, or a sentence."""
 
+from dataclasses import field
 from typing import ClassVar
 
 import numpy as np
@@ -7,9 +8,11 @@ import pytest
 
 import optipath as op
 from chains import ENGINES
+from optipath.elements.coupling import Coupling
 from optipath.kernels.carriers.structures import SCALE
 from optipath.kernels.kernel import Kernel
 from optipath.kernels.primitives import FLOAT
+from optipath.values.operands import Operation
 from tables import rows
 
 
@@ -41,6 +44,7 @@ def make(function=lambda *_: times(0.5), kind="", annotations=(), **body):
         ({"annotations": {"physical": "bool"}}, "'physical'.*write physical: ClassVar"),
         ({"inputs": "in"}, "^inputs of element class Own must be names of ports"),
         ({"outputs": 3}, "^outputs of element class Own must be names of ports"),
+        ({"outputs": ("in", "out")}, "has several ports 'in'; give each a name of its own"),
         ({"mirrored": ("angel",)}, "names 'angel', which is no field of it"),
         ({"mirrored": ("azimuth",)}, "names 'azimuth', whose links say how it is turned"),
         ({"mirrored": (1,)}, r"must be names of fields, not \(1,\)"),
@@ -49,6 +53,34 @@ def make(function=lambda *_: times(0.5), kind="", annotations=(), **body):
 def test_classes_that_no_element_can_have_are_refused_when_they_are_made(given, told):
     with pytest.raises(op.errors.PathError, match=told):
         make(**given)
+
+
+def dimmed_by_what_is_kept():
+    """An element that keeps a share besides its fields."""
+    shares = [0.5, 0.25]
+
+    def init(self):
+        op.Element.__post_init__(self)
+        vars(self)["share"] = shares.pop()
+
+    def couplings(self):
+        emitted = Kernel("kept", SCALE, lambda _: lambda share: (share,))
+        return (Coupling("in", "out", (Operation(emitted, (self.share,)),)),)
+
+    return type("Own", (op.Element,), {"__post_init__": init, "couplings": couplings})
+
+
+def left_at_a_default():
+    """An element one of whose values is never given."""
+    body = {"share": field(default=0.5, init=False), "__annotations__": {"share": float}}
+    body["mueller_rows"] = staticmethod(lambda _, share: times(share))
+    return type("Own", (op.Element,), body)
+
+
+@rows("own, share", [(dimmed_by_what_is_kept(), 0.125), (left_at_a_default(), 0.25)])
+def test_two_elements_of_equal_fields_do_what_each_keeps(own, share):
+    path = op.Source() >> own() >> own() >> op.Detector("intensity")
+    assert path.trace().intensity == share
 
 
 def test_a_class_that_is_not_physical_says_so_for_all_its_elements():

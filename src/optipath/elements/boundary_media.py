@@ -37,7 +37,7 @@ class MediaOfBoundary:
     def taking_over(self, **values: Any) -> Any:
         """Return a boundary like it with values of the one before in place of `FOLLOWS`."""
         face: Any = self
-        return changed(face, _is_sound=False, _is_plain=False, **values)
+        return changed(face, _is_sound=False, **values)
 
 
 _ROUNDING = 1e-9

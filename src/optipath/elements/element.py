@@ -171,7 +171,6 @@ class Element(Chainable):
     _ports_back: ClassVar[dict[str, str]] = {}
     _kernel: ClassVar[Kernel | None] = None
     _is_sound: ClassVar[bool] = False  # Whether the values have been checked, and are allowed.
-    _is_plain: ClassVar[bool] = False  # Whether they are, and each is one number or word.
 
     __array_ufunc__ = None  # NumPy's arrays leave products to it.
 
@@ -190,21 +189,19 @@ class Element(Chainable):
     def __post_init__(self) -> None:
         """Keep numbers for texts, read-only arrays, parameters in a unit; refuse all faults."""
         of_fields = type(self).quantities is Element.quantities
-        domains, values = self.domains(), vars(self)
-        if make_sound(self, domains, self.quantities, of_fields=of_fields):
-            values["_is_sound"] = True
-            values["_is_plain"] = all(type(values[name]) in _PLAIN for name in domains)
+        if make_sound(self, self.domains(), self.quantities, of_fields=of_fields):
+            vars(self)["_is_sound"] = True
 
     @property
     def key(self) -> Hashable:
         """What equal elements share; of those with arrays, or not checked yet, each has its own."""
-        own = vars(self)
-        values = [own[name] for name in self.domains()]
+        own = vars(self)  # With what elements of a user's own keep besides their fields.
+        values = [*own.values()]
         if not self._is_sound or not _HASHED.issuperset(map(type, values)):
             return id(self)
         # 0 is not -0.
         signs = [copysign(1.0, value) for value in values if type(value) is float and not value]
-        return (type(self), *values, *signs)
+        return (type(self), *own, *values, *signs)
 
     def named(self, name: str) -> NamedElement:
         """Return the element with the name of its node in a chain.
@@ -258,7 +255,7 @@ class Element(Chainable):
 
     def uses(self, owner: str) -> list[Use]:
         """Return the numbers that the values are made of, each with what it must be."""
-        if self._is_plain:
+        if self._is_sound and _PLAIN.issuperset(map(type, vars(self).values())):
             return []  # Nothing of it is given later, or has a shape.
         sound = self._is_sound
         return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
@@ -499,7 +496,7 @@ class Element(Chainable):
 def with_values(element: E, **values: Any) -> E:
     """Return an element with other values, of which no degrees are asked about again."""
     stored = {name: read_only(value, widened=False) for name, value in values.items()}
-    result = changed(element, _is_sound=False, _is_plain=False, **stored)
+    result = changed(element, _is_sound=False, **stored)
     faults = result.faults(element.kind or type(element).__name__)
     PathError.raise_for(f"on the way back, {fault}" for fault in faults)
     return result

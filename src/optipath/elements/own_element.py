@@ -239,16 +239,21 @@ def class_faults(element_class: type[Any], base: type[Any], kind: Any) -> Iterat
                 f"field '{field}' of element class {name} is called like what every element has; "
                 f"write {what} where that is meant, or give it another name"
             )
+    ports: list[str] = []
     for which in ("inputs", "outputs", "mirrored"):
         names, what = getattr(element_class, which), "fields" if which == "mirrored" else "ports"
         if which in own or (names is None and which == "mirrored"):
             continue
         if not isinstance(names, (tuple, list)) or not all(isinstance(n, str) for n in names):
             yield f"{which} of element class {name} must be names of {what}, not {shown(names)}"
-        elif which == "mirrored" and (odd := [n for n in names if n == TURN or n not in own]):
+        elif which != "mirrored":
+            ports += names
+        elif odd := [n for n in names if n == TURN or n not in own]:
             is_turn = odd[0] == TURN
             why = "whose links say how it is turned" if is_turn else "which is no field of it"
             yield f"mirrored of element class {name} names '{odd[0]}', {why}; take it out"
+    for port in dict.fromkeys(port for port in ports if ports.count(port) > 1):
+        yield f"element class {name} has several ports '{port}'; give each a name of its own"
     said = [which for which in ROWS if which in vars(element_class)]
     for which in said:
         values = [field for field in own if field != TURN]
