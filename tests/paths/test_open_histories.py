@@ -184,6 +184,44 @@ def test_points_are_used_where_they_stand(events):
         path.element("vertex1").vertices[0] = 0.0
 
 
+def test_few_points_may_be_overwritten():
+    points = random_chains(6, 2, (50,))
+    path = op.path_from_vertices(points, [1.5, 1.33])
+    light, expected = path.trace(), path_of_copy(points)
+    points[...] = random_chains(7, 2, (50,))
+    assert np.array_equal(light.frame.x, expected.frame.x)
+    assert np.array_equal(path.trace().stokes, expected.stokes)
+
+
+def path_of_copy(points):
+    return op.path_from_vertices(points.copy(), [1.5, 1.33]).trace()
+
+
+@rows("ask", ["frame", "run", "matrix", "stream"])
+def test_many_points_that_are_overwritten_give_no_wrong_light(ask):
+    points = random_chains(6, 2, (5000,))
+    path = op.path_from_vertices(points, [1.5, 1.33], events="RR")
+    light = path.trace()
+    points[...] = random_chains(7, 2, (5000,))
+    asked = {
+        "frame": lambda: light.frame,
+        "run": path.trace,
+        "matrix": path.mueller,
+        "stream": lambda: [*path.compose().stream(1000)],
+    }
+    with pytest.raises(op.errors.PathError, match="array of vertices has been overwritten since"):
+        asked[ask]()
+
+
+def test_a_view_that_cannot_be_written_to_is_copied_if_its_owner_can():
+    points = random_chains(6, 2, (50,))
+    view, expected = points.view(), path_of_copy(points)
+    view.flags.writeable = False
+    light = op.path_from_vertices(op.Parameter("points"), [1.5, 1.33]).trace(points=view)
+    points[...] = random_chains(7, 2, (50,))
+    assert np.array_equal(light.frame.x, expected.frame.x)
+
+
 @pytest.mark.parametrize("engine", [engine for engine in ENGINES if engine != "jax"])
 def test_dark_chains_leave_their_neighbors_as_they_are_alone(engine):
     points, ids = random_chains(5, 2, (300,)), np.arange(600).reshape(300, 2) % 3

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, get_args
-from weakref import WeakValueDictionary
+from weakref import finalize
 
 import numpy as np
 
@@ -172,7 +172,7 @@ class VerticesDomain(Domain):
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change; whole numbers, which may wrap, as floats."""
-        if _VIEWS.get(id(value)) is value:
+        if id(value) in _VIEWS:
             return value
         stored = read_only(value)
         whole = isinstance(stored, np.ndarray) and stored.dtype.kind in "iu"
@@ -235,16 +235,38 @@ def _leg_fault(owner: str, leg: npt.NDArray[Any], place: int, where: str) -> str
     )
 
 
-_VIEWS: WeakValueDictionary[int, npt.NDArray[np.float64]] = WeakValueDictionary()
+_VIEWS: dict[int, bytes] = {}
+"""Some numbers of each array that is used where it stands, by its id, as they were at first."""
+
+_FEW = 1 << 15
+"""Arrays of fewer numbers are copied, which costs nothing."""
 
 
 def viewed(value: Any) -> Any:
     """Return an array as a view of doubles that cannot be written to, which no vertex copies."""
-    if type(value) is not np.ndarray or value.dtype.kind not in "fiu" or value.ndim < 2:
+    is_plain = type(value) is np.ndarray and value.dtype.kind in "fiu"
+    if not is_plain or value.ndim < 2 or value.size < _FEW:
         return value
     view = locked(as_doubles(value).view())
-    _VIEWS[id(view)] = view
+    _VIEWS[id(view)] = _some_of(view)
+    finalize(view, _VIEWS.pop, id(view))
     return view
+
+
+def _some_of(view: npt.NDArray[Any]) -> bytes:
+    """Return about a thousand numbers, of all points and axes in turn."""
+    some: npt.NDArray[Any] = view.flat[:: view.size // _FEW * 30 + 1]
+    return some.tobytes()
+
+
+def refuse_changed(vertices: Any) -> None:
+    """Raise where somebody has overwritten an array that is used where it stands."""
+    was = _VIEWS.get(id(vertices))
+    if was is not None and was != _some_of(vertices):
+        raise PathError(
+            "the array of vertices has been overwritten since the path was made; make the path of "
+            "a copy, or of a parameter for them"
+        )
 
 
 VERTICES = VerticesDomain("coordinate")

@@ -8,7 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.elements.vertex_chain import VerticesByAngles, of_chain, pieces_of
+from optipath.elements.vertex_chain import (
+    VerticesByAngles,
+    of_chain,
+    pieces_of,
+    refuse_changed,
+)
 from optipath.errors import FrameError, ValueFault
 from optipath.faults import shown
 from optipath.kernels.catalog import ARRIVING, EVENT_AT_VERTEX, INCIDENCE, REFLECTED, TURN_TO_FRAME
@@ -413,10 +418,15 @@ class VertexFrame:
         several = parameters_among([operand.value for operand in self._views])
         return {p.name for p in several if not (p.bound or isinstance(p, CurveValue))}
 
+    def refuse_changed(self) -> None:
+        """Raise where its points are no longer those of which the path was made."""
+        refuse_changed(self.points.arguments[0].value)
+
     def frame(
         self, arguments: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray
     ) -> Frame:
         """Return the frame: x across the plane of incidence, and turned from there."""
+        self.refuse_changed()
         if any(operand.traced for operand in self._views) or any(
             is_traced(arguments[name].value) for name in self.names
         ):

@@ -72,8 +72,8 @@ def path_from_vertices(
     ----------
     vertices : array_like, shape (..., m + 2, 3), Parameter or VerticesByAngles
         The points from the light to the eye, in the unit of any length; legs within 1e-70 and
-        1e70. A parameter is given arrays of this shape when the path runs. An array of floats is
-        used where it stands: leave it as it is while the path and its light are in use.
+        1e70. A parameter is given arrays of this shape when the path runs. A large array of
+        floats is used where it stands: leave it as it is while the path and its light are in use.
     materials : sequence of m float, complex, array_like, Material or Parameter
         The index of refraction on the other side of each surface, in order from the light. Light
         that is reflected stays in its medium; light that is refracted goes on in this one, which
@@ -158,13 +158,13 @@ def path_from_vertices(
         points = _points(vertices, chains)
         if bad == "mask" and not is_open:
             chains = apart_where_absorbed(chains)
-        path = _composed(points, chains, intensity, start, bad)
+        path = _checked(points, chains, intensity, start, bad)
         if normals is not None:
             if is_open or not isinstance(points, np.ndarray):
                 raise ValueFault("normals need points that are known; leave them out")
             checked = normals_checked(points, normals, chains, start, bad)
             if checked is not chains:
-                path = _composed(points, checked, intensity, start, bad)
+                path = _checked(points, checked, intensity, start, bad)
         elif events is None and not (is_open or isinstance(points, VerticesByAngles)):
             # Light may not arrive everywhere.
             there = None if chains.ended is None else ~chains.ended
@@ -193,14 +193,14 @@ def _count(told: Any, media: Sequence[Any], vertices: Any, parts: Mapping[str, A
     return int(told or own[0])
 
 
-def _composed(points: Any, chains: Any, intensity: Any, start: Any, bad: IfBad) -> PathGraph:
-    with checked_later():  # Composing names the vertices, and looks at their array once.
+def _checked(points: Any, chains: Any, intensity: Any, start: Any, bad: IfBad) -> PathGraph:
+    with checked_later():  # The path names the vertices, and looks at their array once.
         if isinstance(chains, OpenHistories):
             vertices = chains.vertices(points, bad)
         else:
             vertices = vertices_of(points, chains, start, bad)
         path = path_along(vertices, intensity)
-    path.compose()
+    path.check()
     return path
 
 

@@ -135,6 +135,7 @@ class Answers:
         """Return a frame, or what makes it of the values that a run was given."""
         if isinstance(frame, Frame):
             return frame
+        frame.refuse_changed()
         return LaterFrame(frame, self.plan.inputs, parameters, where)
 
     def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
@@ -305,7 +306,8 @@ def kept(value: Any) -> Any:
     (False, 0.5)
     """
     if isinstance(value, np.ndarray):
-        return value.copy() if value.flags.writeable else value
+        owner = value.base if isinstance(value.base, np.ndarray) else value
+        return value.copy() if value.flags.writeable or owner.flags.writeable else value
     with suppress(RecursionError, MemoryError):  # What is too much is refused by the run.
         return deepcopy(value) if isinstance(value, list) else value
     return value
