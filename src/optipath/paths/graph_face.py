@@ -218,7 +218,7 @@ class GraphFace(Chainable):
         return self._tip
 
     def __getstate__(self) -> dict[str, Any]:
-        state = {**vars(self), "_own": self._graph, "_lenders": []}
+        state = {**vars(self), "_own": self._graph, "_gathered": None, "_lenders": []}
         state.pop("_lent", None)
         return state
 
