@@ -100,7 +100,5 @@ def test_pairs_of_cosine_and_sine_are_equal_by_their_numbers():
 
 def test_a_path_is_pickled_without_what_follows_from_its_graph():
     path = op.Source() >> op.Polarizer(op.Parameter("a"))
-    assert [*path] == ["source", "polarizer"]
-    before = pickle.dumps(path)
     assert [*path.parameters] == ["a"]
-    assert pickle.dumps(path) == before
+    assert b"path_values" not in pickle.dumps(path)
