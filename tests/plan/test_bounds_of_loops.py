@@ -97,6 +97,27 @@ def test_no_elements_of_a_loop_found_by_climbing_violate_a_bound(kind, end, insi
     assert best.max() > (0.999 if (inside, behind) == (1, 0) else 0.02)
 
 
+@rows("share", [0.3, 0.6, 0.9])
+def test_rings_that_might_keep_light_have_no_upper_bound_whatever_cancels(share):
+    """Rings that polarizing splitters close: with the best elements, more comes back than goes."""
+    names, rng = ["A", "B", "C"], np.random.default_rng(5)
+    nodes = {name: op.MuellerElement(op.Parameter(name), physical=False) for name in names}
+    nodes |= {name: op.Combiner() for name in ("J", "K", "L")}
+    nodes |= {name: op.PolarizingBeamSplitter() for name in ("P", "Q")}
+    nodes |= {"S": op.BeamSplitter(share), "lamp": op.Source()}
+    links = (
+        "lamp -> J, J -> C, C -> S, S.transmitted -> eye, S.reflected -> K, K -> A, A -> P, "
+        "P.reflected -> K, P.transmitted -> L, L -> Q, Q.reflected -> B, B -> L, Q.transmitted -> J"
+    )
+    path = wired({**nodes, "eye": op.Detector(reads="intensity")}, links, loops="sum")
+    plan = op.Composer(engine="numpy").compose(path)
+    matrices = depolarizing(passive(jones(rng, len(names), 100, 1)))
+    values = dict(zip(names, matrices, strict=True))
+    found, true = plan.certificate(**values), plan.run(**values).intensity
+    assert np.all(found.lower * found.scalar <= true)
+    assert np.all(true <= found.upper * found.scalar)
+
+
 @rows("seed", range(60))
 def test_no_certificate_of_a_path_with_loops_is_violated(seed):
     draw = Draw(seed)

@@ -222,9 +222,10 @@ class BoundsCarrier(Carrier):
             place, excess = places[junction], xp.maximum(excess, light.excess)
             given[place : place + len(_PARTS)] = self._begun(light)
         found = system.solved(given)
-        # What no light ever gets to may keep all of it.
+        # What no light ever gets to may keep all of it; sums of light that fades are never negative,
+        # but such as does not may have come to 0 by cancellation.
         pivots = [
-            1.0 if is_zero(number) else xp.where(number == 0.0, 1.0, pivot)
+            xp.where(number == 0.0, 1.0, xp.where(number > 0.0, pivot, -1.0))
             for number, pivot in zip(found, system.pivots, strict=True)
         ]
         most = [pivot for place, pivot in enumerate(pivots) if place % len(_PARTS) in (1, 2)]
