@@ -67,14 +67,18 @@ def test_a_field_takes_what_is_within_its_range(annotation, allowed, refused):
         (Annotated[float, Within], r"Within says no range; write op.fields.Within\(least, most\)"),
         (Annotated[float, (0, 2)], r"\(0, 2\) says no range; write"),
         ((0, 2), r"\(0, 2\) says no range; write"),
+        (Annotated[float, [0, 2]], r"\[0, 2\] says no range; write"),
         (Annotated[float, range(3)], r"range\(0, 3\) says no range"),
         (Annotated[float, type("Ge", (), {"ge": 0})()], "says no range"),
-        (Annotated[bool, Within(0, 1)], "for real numbers, not for True or False"),
+        (Annotated[bool, Within(0, 1)], "for real numbers, not for True or False; take it out"),
         (Annotated[F.Index, Within(1, 2)], "for real numbers, not for an index"),
         (Annotated[F.StokesState, Within(0, 1)], "for real numbers, not for .* Stokes vector"),
         (Annotated[F.Angle, Within(0, 90)], "is 90 rad; write degrees as '90 deg'"),
-        (Annotated[F.Angle, Within("0 nm")], "'0 nm' is no angle"),
-        (Annotated[F.Fraction, Within(2, 3)], "2 .. 3 leaves no number that is a real fraction"),
+        (Annotated[F.Angle, Within("0 nm")], "an end of Within: '0 nm' is no angle"),
+        (
+            Annotated[F.Fraction, Within(2, 3)],
+            "2 .. 3 has no number that is a real fraction .*; give others",
+        ),
     ],
 )
 def test_what_is_no_range_of_a_field_is_refused_by_the_name_of_the_field(annotation, told):
@@ -188,6 +192,7 @@ def test_a_jones_matrix_is_no_depolarizer_to_bounds_and_comparisons():
     [
         (lambda _, x: ((x, 0), (0, 1, 3)), "must return two rows of two entries, not"),
         (lambda _, x: ((x, (0, 1, 2)), (0, 1)), r"gives the entry \(0, 1, 2\); give numbers"),
+        (lambda _, x: (((1j, x), 0), (0, 1)), r"gives the entry \(1j, .*0.5.*; give numbers"),
         (lambda _, x: ((x, "a"), (0, 1)), "gives the entry 'a'; give numbers"),
         (lambda _, x: ((x, None), (0, 1)), "gives the entry None; give numbers"),
         (lambda _, x: ((x, 0), (0, np.ones(3))), r"entry of shape \(3,\) for paths of shape \(\)"),

@@ -323,7 +323,7 @@ class RowsFactory:
 
 def _parts(entry: Any) -> tuple[Any, ...]:
     """Return the real and the imaginary part of an entry, which may be given as such."""
-    if isinstance(entry, (tuple, list)) and len(entry) == 2:
+    if isinstance(entry, (tuple, list)) and len(entry) == 2 and not any(map(_is_complex, entry)):
         return tuple(entry)
     return (entry.real, entry.imag) if _is_complex(entry) else (entry, 0.0)
 
@@ -459,7 +459,7 @@ def _annotations(hint: Any) -> Iterator[Any]:
 def _is_meant_as_range(part: Any) -> bool:
     """Tell whether something beside a type is meant as a range, as those of others may be."""
     others = any(getattr(part, end, None) is not None for end in ("ge", "gt", "le", "lt"))
-    return part is Within or isinstance(part, (range, slice, tuple)) or others
+    return part is Within or isinstance(part, (range, slice, tuple, list)) or others
 
 
 def same_value(first: Any, second: Any, domain: Domain) -> bool:

@@ -15,7 +15,7 @@ from optipath.values.angles import TURN, CosSin, range_cure, refused
 from optipath.values.arrays import as_argument, changed, first_place, numbers_for, read_only
 from optipath.values.jax_values import is_traced, namespace
 from optipath.values.parameters import Parameter
-from optipath.values.precision import ENDLESS, doubles, held, real_number, rounding_of
+from optipath.values.precision import ENDLESS, doubles, held, rounding_of
 from optipath.values.units import (
     USUAL_UNITS,
     dimension_of,
@@ -185,7 +185,7 @@ class Within:
     Parameters
     ----------
     minimum, maximum : float or str, optional
-        The ends: numbers in base units (radians, metres), or texts such as ``"30 deg"``; by
+        The ends: numbers in base units (radians, meters), or texts such as ``"30 deg"``; by
         default there is none.
 
     Raises
@@ -215,24 +215,19 @@ class Within:
         if unit and domain == Domain("number"):
             kind = dimension_of(unit)
             domain = replace(domain, name=kind, dimension=kind, own_unit=unit)
-        own, several = (domain.minimum, domain.maximum), (*domain.complex_parts, *domain.tail)
-        if several or isinstance(domain, Choice):
-            raise ValueFault(f"Within is for real numbers, not for {domain.described()}")
-        given = list(own)
+        allowed, own = domain.described(), domain.interval
+        if domain.complex_parts or domain.tail or isinstance(domain, Choice):
+            raise ValueFault(f"Within is for real numbers, not for {allowed}; take it out")
+        given, endless = list(own), replace(domain, minimum=-np.inf, maximum=np.inf)
         for place, end in enumerate(ends):
             if end is not None:
-                number = real_number(domain.parse(end) if isinstance(end, str) else end)
-                if number is None:
-                    raise ValueFault(f"an end of Within is {shown(end)}; give a number, or None")
-                if domain.dimension == "angle" and end == number and abs(number) > TURN:
-                    raise ValueFault(
-                        f"an end of Within is {number:g} rad; write degrees as '{number:g} deg'"
-                    )
-                given[place] = number
+                given[place] = n = one_number("an end of Within", end, endless)
+                if domain.dimension == "angle" and not isinstance(end, str) and abs(n) > TURN:
+                    raise ValueFault(f"an end of Within is {n:g} rad; write degrees as '{n:g} deg'")
         low, high = max(given[0], own[0]), min(given[1], own[1])
         if low > high:
             texts = " .. ".join(map(str, ends))
-            raise ValueFault(f"Within {texts} leaves no number that is {domain.described()}")
+            raise ValueFault(f"Within {texts} has no number that is {allowed}; give others")
         return replace(domain, minimum=low, maximum=high)
 
 

@@ -222,8 +222,8 @@ class BoundsCarrier(Carrier):
             place, excess = places[junction], xp.maximum(excess, light.excess)
             given[place : place + len(_PARTS)] = self._begun(light)
         found = system.solved(given)
-        # What no light ever gets to may keep all of it; sums of light that fades are never negative,
-        # but such as does not may have come to 0 by cancellation.
+        # What no light ever gets to may keep all of it. Where light does not fade, some sum is
+        # negative, and others may have come to 0 by cancellation.
         pivots = [
             xp.where(number == 0.0, 1.0, xp.where(number > 0.0, pivot, -1.0))
             for number, pivot in zip(found, system.pivots, strict=True)
