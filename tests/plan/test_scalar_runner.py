@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import optipath as op
+from optipath.lab.composition import LIGHT, mixed_path, walked
+from optipath.plan.interpreter import Interpreter
 from paths import chain
 from random_paths import Draw
 from tables import rows
@@ -44,6 +46,14 @@ def test_the_later_runs_of_every_preset_are_the_first(name):
 def test_the_later_runs_of_random_paths_with_several_detectors_are_the_first(seed):
     draw = Draw(seed, arrays=False)
     assert_later_runs_are_the_first(draw.path(loops=seed % 3 == 0), **draw.values)
+
+
+def test_one_value_of_a_path_of_a_thousand_elements_is_not_run_step_by_step(monkeypatch):
+    monkeypatch.setattr(Interpreter, "lights", None)
+    path, graph = mixed_path(1000)
+    values = {"incidence": 0.55, "axis": 0.05, "turn": -0.05}
+    light = path.compose().run(**values).stokes
+    np.testing.assert_allclose(light, walked(graph, values, LIGHT)[:, 0], rtol=1e-12, atol=1e-15)
 
 
 VALUE = op.Parameter("v")

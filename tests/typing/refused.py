@@ -25,6 +25,7 @@ def of_words(path: op.PathGraph, light: op.Light) -> None:
     light.to("mitsubba")  # type: ignore[arg-type]
     light.plot("stoke")  # type: ignore[arg-type]
     light.to_srgb(out_of_gamut="clipp")  # type: ignore[arg-type]
+    light.to_xyz(observer="CIE 1964")  # type: ignore[arg-type]
 
 
 def of_chains(path: op.PathGraph, light: op.Light) -> list[object]:

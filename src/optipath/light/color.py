@@ -31,6 +31,7 @@ _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 _WHITE = "give white=, the light without the sample, or op.Spectrum.illuminant('D65')"
 
+Standard: TypeAlias = Literal["CIE 1931 2 deg"]
 Beyond: TypeAlias = Literal["dark", "nearest"]
 OutOfGamut: TypeAlias = Literal["refuse", "clip", "scale", "keep"]
 

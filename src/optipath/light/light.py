@@ -55,7 +55,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    from optipath.light.color import Beyond, OutOfGamut, Srgb
+    from optipath.light.color import Beyond, OutOfGamut, Srgb, Standard
     from optipath.light.conventions import Software
     from optipath.values.precision import Array
 
@@ -520,7 +520,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return self.of(*summed, measured=self.is_measured)
 
     def to_xyz(
-        self, white: Any = None, observer: str = "CIE 1931 2 deg", *, outside: Beyond = "dark"
+        self, white: Any = None, observer: Standard = "CIE 1931 2 deg", *, outside: Beyond = "dark"
     ) -> Array:
         """Return the tristimulus values X, Y and Z of spectral light, of shape (..., 3).
 
@@ -569,7 +569,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
     def to_srgb(
         self,
         white: Any = None,
-        observer: str = "CIE 1931 2 deg",
+        observer: Standard = "CIE 1931 2 deg",
         *,
         outside: Beyond = "dark",
         adapt: bool = False,

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from optipath.values.precision import Array
 
 
-LONGEST = 200
-"""How many steps are compiled in one piece."""
+LONGEST, LONGEST_ALONE = 200, 4000
+"""How many steps are compiled in one piece, of batches and of one path by floats."""
 
 
 class RunOptions(NamedTuple):
@@ -71,7 +71,7 @@ class Runnable:
         self.first_values = FirstValues(self.own_ways)
         self.dtype = np.dtype(options.dtype)
         self.carrier = carrier_of(program, options.composing)
-        self.may_compile = len(program.steps) <= LONGEST and options.reproducible
+        self.may_compile = options.reproducible
         self.for_jax = ForJax(self)
         self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
 
@@ -86,9 +86,9 @@ class Runnable:
         self.for_jax.refuse_traced(parameters, "certificates are made")
         return self.reader.read(parameters)
 
-    def attempt(self, make: Callable[[], Formula]) -> Formula | None:
+    def attempt(self, make: Callable[[], Formula], longest: int = LONGEST) -> Formula | None:
         """Return what makes a formula gives; None where it cannot be made."""
-        if not self.may_compile:
+        if not self.may_compile or len(self.program.steps) > longest:
             return None
         try:
             return make()

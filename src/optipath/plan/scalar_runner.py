@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import partial
 from itertools import islice, repeat
 from types import NoneType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.engines.float_engine import float_path
+from optipath.plan.runnable import LONGEST, LONGEST_ALONE
 from optipath.values.curve_value import computed_values
 from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD
@@ -118,7 +120,9 @@ class ScalarRunner:
         keys = runner.all_passed_as(ONE)
         absent = {key.name for key in nothing if key.part == "present"}
         forms = {k: ABSENT if k in nothing or k.name in absent else ONE for k in keys}
-        formula = runner.attempt(lambda: runner.recorded(forms, single=True).lights(runner.carrier))
+        recorded = partial(runner.recorded, forms, single=True)
+        longest = LONGEST if runner.program.loops else LONGEST_ALONE
+        formula = runner.attempt(lambda: recorded().lights(runner.carrier), longest)
         if formula is not None:
             names = tuple(map(formula.name_of, formula.inputs))
             result = FloatFunction(float_path(formula)(), names, formula.length)
