@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath import errors as extras
+from optipath import extras
 from optipath.composer import composer
 from optipath.engines import choice as automatic
 from optipath.engines.choice import FLOATS, HANDFUL, NUMPY_STEPS, REGISTRY, EngineChoice
