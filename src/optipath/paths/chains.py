@@ -279,11 +279,15 @@ def vertices_of(points: Any, chains: Histories, outside: Any, bad: IfBad) -> lis
     return vertices
 
 
+_MANY = 1 << 20
+"""The coordinates of points for which a pass is compiled."""
+
+
 def _goes_along(points: Any, chains: Histories, outside: Any) -> bool:
-    """Tell, in one pass, whether light can go along chains whose events differ."""
+    """Tell, in one pass, whether light can go along many chains whose events differ."""
     events = chains.events
-    if isinstance(events, str) or not isinstance(points, np.ndarray):
-        return False
+    if isinstance(events, str) or not isinstance(points, np.ndarray) or points.size < _MANY:
+        return False  # Of few, each vertex is asked sooner.
     numbers: list[Any] = [index_parts("outside", outside)[0]]
     for place, material in enumerate(chains.materials):
         numbers += [events[..., place], *index_parts("", material)]

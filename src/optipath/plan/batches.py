@@ -167,8 +167,7 @@ def holds_for_all(factory: Factory, numbers: Sequence[Any], batch: tuple[int, ..
         )
     if not isinstance(formula.holds, Symbol):
         return bool(formula.holds)
-    compiles = layout.paths > _AT_ONCE and is_installed(COMPILER)
-    path = REGISTRY[COMPILER if compiles else "numpy"].compiled(formula)
+    path = REGISTRY[COMPILER if is_installed(COMPILER) else "numpy"].compiled(formula)
     grid, out = Grid(formula, path, layout, arrays, layout.axes, last=True), np.empty((0, 0))
     return all(grid.fill(piece, out) for piece in pieces(batch, _IN_CACHE))
 
