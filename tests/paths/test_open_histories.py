@@ -184,6 +184,22 @@ def test_points_are_used_where_they_stand(events):
         path.element("vertex1").vertices[0] = 0.0
 
 
+@rows(
+    "events, point, message",
+    [
+        ("RR", [0, 0, 2], "vertices 1 and 2 of chain 77777, .* are one point"),
+        ("TR", [0, 0, np.inf], "is inf"),
+        ("TR", [9, 0, 2], "light is turned by .* at 'vertex1'"),
+    ],
+)
+def test_one_chain_that_cannot_be_is_told_among_many(events, point, message):
+    points = np.repeat([[[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 2]]], 100_000, axis=0)
+    op.path_from_vertices(points.copy(), [1.5, 1.33], events=events)
+    points[77_777, 2] = point
+    with pytest.raises(op.errors.PathError, match=message):
+        op.path_from_vertices(points, [1.5, 1.33], events=events)
+
+
 def test_few_points_may_be_overwritten():
     points = random_chains(6, 2, (50,))
     path = op.path_from_vertices(points, [1.5, 1.33])

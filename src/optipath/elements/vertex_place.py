@@ -255,8 +255,9 @@ def goes_along(xp: Primitives) -> KernelFunction:
             event, n, k = numbers[3 * at : 3 * at + 3]
             *_, cos, _ = met(front, n, k, event, *points[3 * at : 3 * at + 9])
             refracts = event == Event.REFRACTS
-            sound = ~refracts | ((front > 0.0) & (n > 0.0))
-            results.append(((cos >= 0.0) & sound) | (event == Event.BEHIND))
+            sound = (event != Event.REFRACTS) | ((front > 0.0) & (n > 0.0))
+            # No cosine is 2, and none that is NaN is less.
+            results.append(((cos < 2.0) & sound) | (event == Event.BEHIND))
             front = xp.where(refracts, n, front)
         return tuple(results)
 

@@ -11,7 +11,7 @@ from optipath.elements.ends import Detector, Source
 from optipath.elements.vertex_chain import of_chain, pieces_of
 from optipath.elements.vertex_place import deviation, goes_along, off_normals
 from optipath.elements.vertices import RefractingVertex, SpecularVertex, Vertex
-from optipath.errors import ShapeError, ValueFault
+from optipath.errors import OptipathError, ShapeError, ValueFault
 from optipath.faults import shown
 from optipath.kernels.catalog import REFRACTION
 from optipath.kernels.primitives import NUMPY
@@ -284,13 +284,16 @@ _MANY = 1 << 20
 
 
 def _goes_along(points: Any, chains: Histories, outside: Any) -> bool:
-    """Tell, in one pass, whether light can go along many chains whose events differ."""
-    events = chains.events
-    if isinstance(events, str) or not isinstance(points, np.ndarray) or points.size < _MANY:
+    """Tell, in one pass, whether light can go along many chains."""
+    if not isinstance(points, np.ndarray) or points.size < _MANY:
         return False  # Of few, each vertex is asked sooner.
-    numbers: list[Any] = [index_parts("outside", outside)[0]]
-    for place, material in enumerate(chains.materials):
-        numbers += [events[..., place], *index_parts("", material)]
+    events = numbers_of_events(chains)
+    try:
+        numbers: list[Any] = [index_parts("outside", outside)[0]]
+        for place, material in enumerate(chains.materials):
+            numbers += [events[..., place], *index_parts("", material)]
+    except OptipathError:
+        return False  # They are parameters.
     numbers += [points[..., place, axis] for place in range(points.shape[-2]) for axis in range(3)]
     shapes = [number.shape for number in numbers]
     try:
