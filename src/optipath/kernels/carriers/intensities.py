@@ -121,7 +121,7 @@ I - q and of m."""
 def _passed(light: Sequence[Any], shares: Sequence[Any]) -> tuple[Any, ...]:
     """Return the parts of light behind an element."""
     total, upper, q, lower, unpolarized, length = light
-    mean, t, p, stored, left, is_pure = shares
+    mean, t, p, stored, is_pure, left = shares
     behind = (
         (mean, total),
         (mean, _added((1.0, upper), (t, q))),
@@ -157,20 +157,16 @@ class BoundsCarrier(Carrier):
         return Bounded(s0, 1.0, 1.0, Boosts(self.xp.minimum(dop, 1.0)), excess)
 
     def act(self, structure: Structure, numbers: Numbers, state: Bounded, _: int = 1) -> Bounded:
-        rows = structure.rows(self.xp, numbers)
-        mean, *first = rows[0]
-        diattenuation = self._share(first, mean)
+        mean, t, polarizance, stored, is_pure = self._shares(structure, numbers)
         total, lower, upper, boosts, excess = state
-        after = boosted(self.xp, boosts, diattenuation)
-        if structure.jones is not None:
+        after = boosted(self.xp, boosts, t)
+        if is_pure:
             return Bounded(mean * total, lower, upper, after, excess)
         # What may depolarise is no boost. The intensity behind it is bounded as if it were, and
         # its light by what the matrix can do at most.
         least, most = ratio_bounds(self.xp, after)
         before = dop_bound(boosts)
-        polarizance = self._share([row[0] for row in rows[1:]], mean)
-        stored = self._share([entry for row in rows[1:] for entry in row[1:]], mean)
-        left = 1.0 - diattenuation * before
+        left = 1.0 - t * before
         dop = (polarizance + stored * before) / self.xp.where(left > 0.0, left, 1.0)
         dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
         return Bounded(mean * total, lower * least, upper * most, Boosts(dop), excess)
@@ -208,7 +204,8 @@ class BoundsCarrier(Carrier):
                 if junction not in places:
                     places[junction] = len(back)
                     back += [{} for _ in _PARTS]
-            passed = [self._shares(*each) for each in elements]
+            shares = [self._shares(*each) for each in elements]
+            passed = [(*each, xp.sqrt((1.0 - each[2]) * (1.0 + each[2]))) for each in shares]
             for part in _PARTS:
                 unit: Sequence[Any] = [float(part == other) for other in _PARTS]
                 gains = reduce(_passed, passed, unit)
@@ -259,14 +256,14 @@ class BoundsCarrier(Carrier):
         return total, high * most, 0.5 * high * (more - less), low * least, low * less, length
 
     def _shares(self, structure: Structure, numbers: Numbers) -> tuple[Any, ...]:
-        """Return mean, diattenuation, polarizance, stored polarization, and what is left of m."""
+        """Return mean, diattenuation, polarizance, stored polarization, and if none is lost."""
         (mean, *first), *rows = structure.rows(self.xp, numbers)
         t = self._share(first, mean)
         if structure.jones is not None:
-            return mean, t, t, 1.0, self.xp.sqrt((1.0 - t) * (1.0 + t)), True
+            return mean, t, t, 1.0, True
         p = self._share([row[0] for row in rows], mean)
         stored = self._share([entry for row in rows for entry in row[1:]], mean)
-        return mean, t, p, stored, self.xp.sqrt((1.0 - p) * (1.0 + p)), False
+        return mean, t, p, stored, False
 
     def read(self, state: Bounded, _: int = 1) -> tuple[Components, Any]:
         least, most = ratio_bounds(self.xp, state.boosts)
