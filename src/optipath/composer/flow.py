@@ -9,7 +9,7 @@ from collections import Counter
 from dataclasses import replace
 from functools import lru_cache, reduce
 from math import isfinite
-from operator import or_
+from operator import ne, or_
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -298,9 +298,9 @@ _IDENTITY: Entries = tuple(tuple(float(row == column) for column in range(4)) fo
 def _action_of(entries: Entries) -> Action:
     # What a source emits is made of nothing that arrives, and there if it is not 0.
     rows = [[entry] * 4 for entry in entries[0]] if len(entries) == 1 else entries
-    made_of = [_mask(entry != 0.0 for entry in row) for row in rows]
+    made_of = [_mask([entry != 0.0 for entry in row]) for row in rows]
     pairs = zip(rows, _IDENTITY, strict=True)
-    changed = [_mask(map(_differ, row, of_none)) for row, of_none in pairs]
+    changed = [_mask(map(ne, row, of_none)) for row, of_none in pairs]
     masks = range(16)
     forward = [_mask(bool(columns & mask) for columns in made_of) for mask in masks]
     every = [[made_of[i] for i in range(4) if mask >> i & 1] for mask in masks]
@@ -309,12 +309,8 @@ def _action_of(entries: Entries) -> Action:
     return Action(tuple(forward), tuple(backward), tuple(changes))
 
 
-def _differ(one: Entry, other: Entry) -> bool:
-    return one != other
-
-
 def _mask(signs: Any) -> int:
-    return sum(bool(sign) << place for place, sign in enumerate(signs))
+    return sum([bool(sign) << place for place, sign in enumerate(signs)])
 
 
 _zero_or_one = dict[Entry, Entry]({0.0: 0.0, 1.0: 1.0}).get

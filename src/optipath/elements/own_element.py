@@ -458,8 +458,8 @@ def _annotations(hint: Any) -> Iterator[Any]:
 
 def _is_meant_as_range(part: Any) -> bool:
     """Tell whether something beside a type is meant as a range, as those of others may be."""
-    others = any(getattr(part, end, None) is not None for end in ("ge", "gt", "le", "lt"))
-    return part is Within or isinstance(part, (range, slice, tuple, list)) or others
+    ends = [end for end in ("ge", "gt", "le", "lt") if getattr(part, end, None) is not None]
+    return part is Within or isinstance(part, (range, slice, tuple, list)) or bool(ends)
 
 
 def same_value(first: Any, second: Any, domain: Domain) -> bool:
