@@ -307,7 +307,11 @@ def kept(value: Any) -> Any:
     """
     if isinstance(value, np.ndarray):
         owner = value.base if isinstance(value.base, np.ndarray) else value
-        return value.copy() if value.flags.writeable or owner.flags.writeable else value
+        if not (value.flags.writeable or owner.flags.writeable):
+            return value
+        # What is broadcast may be much larger than what it is made of.
+        once = tuple([slice(None) if stride else slice(1) for stride in value.strides])
+        return np.broadcast_to(value[once].copy(), value.shape)
     with suppress(RecursionError, MemoryError):  # What is too much is refused by the run.
         return deepcopy(value) if isinstance(value, list) else value
     return value
