@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -154,7 +154,7 @@ class Media:
         """What must hold of light that comes out of media that absorb."""
         wiring = self.meetings.wiring
         elements = [e for e in wiring.distinct.values() if isinstance(e, BoundaryElement)]
-        absorbs = {id(e) for e in elements if any(arriving_waves("", e, port) for port in e.inputs)}
+        absorbs = {id(e) for e in elements if any(map(partial(_absorbs, e), e.inputs))}
         names = [name for name, e in wiring.alike.items() if id(e) in absorbs] if absorbs else []
         for name in sorted(names):
             for port in sorted(self.elements[name].inputs):
@@ -176,6 +176,11 @@ class Media:
         # A boundary in space has its angle by its points.
         has_one = isinstance(self.elements[port[0]], BoundaryElement)
         return has_one and face.measured[1] is face.outside
+
+
+def _absorbs(element: Any, port: str) -> bool:
+    """Tell whether light may come to a port out of a medium that absorbs."""
+    return type(element.medium_at(port)) is not float and bool(arriving_waves("", element, port))
 
 
 def index_of(value: Any) -> Operand:
