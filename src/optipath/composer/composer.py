@@ -53,7 +53,7 @@ def checked(
     graph, faults = with_followed(values.graph) if values.has_followers else (values.graph, [])
     values = values if graph is values.graph else Values(graph)
     wiring = Wiring(graph, loops, keep)
-    wiring.alike, wiring.distinct = values.alike, values.distinct
+    wiring.alike = values.alike
     media = Media(wiring)
     # In a cycle by mistake, light meets media and misses ends in consequence.
     cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring))

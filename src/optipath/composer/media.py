@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -141,22 +141,15 @@ class Media:
     @property
     def _within(self) -> Iterator[Agreement]:
         """What must fit of the values of one element."""
-        wiring = self.meetings.wiring
-        own = {
-            id(e) for e in wiring.distinct.values() if type(e).agreements is not Element.agreements
-        }
-        for name, element in wiring.alike.items() if own else ():
-            if id(element) in own:
-                yield from self.elements[name].agreements(name)
+        alike = self.meetings.wiring.alike
+        for name in alike.where(lambda e: type(e).agreements is not Element.agreements):
+            yield from self.elements[name].agreements(name)
 
     @property
     def _arriving(self) -> Iterator[Agreement]:
         """What must hold of light that comes out of media that absorb."""
         wiring = self.meetings.wiring
-        elements = [e for e in wiring.distinct.values() if isinstance(e, BoundaryElement)]
-        absorbs = {id(e) for e in elements if any(map(partial(_absorbs, e), e.inputs))}
-        names = [name for name, e in wiring.alike.items() if id(e) in absorbs] if absorbs else []
-        for name in sorted(names):
+        for name in sorted(wiring.alike.where(_absorbs)):
             for port in sorted(self.elements[name].inputs):
                 if wiring.is_lit(name, port):
                     yield from arriving_waves(name, self.elements[name], port)
@@ -178,9 +171,12 @@ class Media:
         return has_one and face.measured[1] is face.outside
 
 
-def _absorbs(element: Any, port: str) -> bool:
-    """Tell whether light may come to a port out of a medium that absorbs."""
-    return type(element.medium_at(port)) is not float and bool(arriving_waves("", element, port))
+def _absorbs(element: Element) -> bool:
+    """Tell whether light may come to a boundary out of a medium that absorbs."""
+    if not isinstance(element, BoundaryElement):
+        return False
+    ports = [port for port in element.inputs if type(element.medium_at(port)) is not float]
+    return any(arriving_waves("", element, port) for port in ports)
 
 
 def index_of(value: Any) -> Operand:

@@ -72,7 +72,7 @@ class Meetings:
                 end in boundaries and enters != "in"
             ):
                 return False
-        for element in self.wiring.distinct.values():
+        for element in self.wiring.alike.distinct.values():
             if isinstance(element, MediaOfBoundary):
                 medium = element.medium_at("in")
                 if type(medium) is not float:

@@ -9,7 +9,7 @@ import numpy as np
 
 from optipath.composer.wiring import link_text
 from optipath.elements.boundary_media import MediaOfBoundary
-from optipath.elements.element import Element, alike
+from optipath.elements.element import Alike, Element
 from optipath.elements.own_element import couplings_of
 from optipath.errors import ValueFault
 from optipath.materials.quantities import ANGLE, SPECTRAL
@@ -42,22 +42,14 @@ class Values:
         self.graph = graph
 
     @cached_property
-    def alike(self) -> dict[str, Element]:
+    def alike(self) -> Alike:
         """For each node, the first element that is equal to its own."""
-        return alike(dict(self.graph.nodes(data="element")))
-
-    @cached_property
-    def distinct(self) -> dict[str, Element]:
-        """The elements of which none is equal to another, each by its first name."""
-        firsts: dict[int, str] = {}
-        for name, element in self.alike.items():
-            firsts.setdefault(id(element), name)
-        return {name: self.alike[name] for name in firsts.values()}
+        return Alike(dict(self.graph.nodes(data="element")))
 
     @property
     def has_followers(self) -> bool:
         """Whether an element takes over what another one has."""
-        elements = self.distinct.values()
+        elements = self.alike.distinct.values()
         return any(isinstance(e, MediaOfBoundary) and e.followed() for e in elements)
 
     @cached_property
@@ -65,7 +57,7 @@ class Values:
         """Each number where it stands."""
         results: list[Use] = []
         # Of equal elements the first says what their values are, and what is wrong with them.
-        for name, element in self.distinct.items():
+        for name, element in self.alike.distinct.items():
             results += element.uses(name)
         results += self._entered()
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
@@ -86,12 +78,11 @@ class Values:
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
-        distinct = self.distinct.values()
-        asked = {id(e) for e in distinct if type(e).uses_entered is not Element.uses_entered}
+        asked = {*self.alike.where(lambda e: type(e).uses_entered is not Element.uses_entered)}
         entries: dict[tuple[int, str], str] = {}
         for _, end, key in self.graph.edges(keys=True) if asked else ():
-            if (which := id(self.alike[end])) in asked:
-                entries.setdefault((which, key[1]), end)
+            if end in asked:
+                entries.setdefault((id(self.alike[end]), key[1]), end)
         every = [(name, port) for (_, port), name in entries.items()]
         return [use for name, port in every for use in self.alike[name].uses_entered(name, port)]
 

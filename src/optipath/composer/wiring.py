@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, TypeVar, 
 
 import networkx as nx
 
-from optipath.elements.element import alike
+from optipath.elements.element import Alike
 from optipath.elements.own_element import OwnWays, couplings_of, is_own, own_ways
 from optipath.faults import Cure, Fault, listed
 
@@ -128,21 +128,13 @@ class Wiring:
         return results
 
     @cached_property
-    def alike(self) -> dict[str, Element]:
+    def alike(self) -> Alike:
         """For each node, the first element that is equal to its own."""
-        return alike(self.elements)
-
-    @cached_property
-    def distinct(self) -> dict[str, Element]:
-        """The elements of which none is equal to another, each by the name of a node."""
-        return {
-            name: self.alike[name] for name in {id(e): n for n, e in self.alike.items()}.values()
-        }
+        return Alike(self.elements)
 
     def own_ways(self, method: str = "stable") -> list[OwnWays]:
         """Return the ways through elements of a user's own that are to be looked at."""
-        own = {id(e) for e in self.distinct.values() if is_own(type(e))}
-        names = [name for name, e in self.alike.items() if id(e) in own] if own else []
+        names = self.alike.where(lambda element: is_own(type(element)))
         each = [own_ways(name, self.elements[name], self.couplings[name], method) for name in names]
         return [way for ways in each for way in ways]
 

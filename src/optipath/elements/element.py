@@ -36,7 +36,7 @@ from optipath.values.use import (
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 
     from optipath.elements.coupling import Coupling
     from optipath.elements.vertex_place import VertexFrame
@@ -84,16 +84,28 @@ class NamedElement(Chainable):
     element: Any
 
 
-def alike(elements: Mapping[str, Element]) -> dict[str, Element]:
-    """Return for each name the first of the elements that are equal to its own."""
-    known: dict[Hashable, Element] = {}
-    firsts: dict[int, Element] = {}
-    results: dict[str, Element] = {}
-    for name, element in elements.items():
-        if (first := firsts.get(id(element))) is None:
-            first = firsts[id(element)] = known.setdefault(element.key, element)
-        results[name] = first
-    return results
+class Alike(dict[str, "Element"]):
+    """For each name, the first of the elements that are equal to its own.
+
+    `distinct` has the elements of which none is equal to another, each by its first name.
+    """
+
+    def __init__(self, elements: Mapping[str, Element]) -> None:
+        super().__init__()
+        self.distinct: dict[str, Element] = {}
+        known: dict[Hashable, Element] = {}
+        firsts: dict[int, Element] = {}
+        for name, element in elements.items():
+            if (first := firsts.get(id(element))) is None:
+                first = firsts[id(element)] = known.setdefault(element.key, element)
+                if first is element:
+                    self.distinct[name] = element
+            self[name] = first
+
+    def where(self, holds: Callable[[Element], bool]) -> list[str]:
+        """Return the names of the elements of which something holds, asked once of equal ones."""
+        found = {id(element) for element in self.distinct.values() if holds(element)}
+        return [name for name, element in self.items() if id(element) in found] if found else []
 
 
 E = TypeVar("E", bound="Element")
