@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self
 
 from optipath.composer.path_values import Values
 from optipath.composer.placement import goes_straight
@@ -223,6 +223,17 @@ class PlaceChoice:
             raise PathError(f"a choice of places is a node and, behind, a port {given}")
         object.__setattr__(self, "behind", dict(self.behind))
 
+    @classmethod
+    def named(cls, name: Any, known: Values, *said: Any) -> Self:
+        """Return a choice for the nodes of a path, or raise if its name or a place cannot be."""
+        if not isinstance(name, str) or not name.isidentifier():
+            raise PathError(f"choice name {shown(name)} must be letters, digits and underscores")
+        if name in known.graph.graph["choices"] or name in known.parameters:
+            raise PathError(f"choice or parameter '{name}' is there already; use another name")
+        choice = cls(*said)
+        PathError.raise_for(choice_faults(known.graph, choice))
+        return choice
+
     def renamed(self, names: Mapping[str, str]) -> PlaceChoice:
         """Return the same choice where nodes are called otherwise."""
         ports = {word: port.partition(".") for word, port in self.behind.items()}
@@ -272,6 +283,15 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
     return faults
 
 
+def check_choices(graph: nx.MultiDiGraph) -> None:
+    """Raise with all that is wrong with the choices of a graph."""
+    PathError.raise_for(
+        Fault.of(fault).under(f"choice '{name}'")
+        for name, choice in graph.graph["choices"].items()
+        for fault in choice_faults(graph, choice)
+    )
+
+
 def with_arguments(known: Values, values: dict[str, Any], *, for_good: bool) -> Values:
     """Return the values of a path with nodes in the places chosen, and other values given."""
     faults: list[str] = []
@@ -284,3 +304,10 @@ def with_arguments(known: Values, values: dict[str, Any], *, for_good: bool) -> 
         known = bind(known, values, for_good=for_good)
     ParameterError.raise_for(faults)
     return known
+
+
+def wiring_at_defaults(known: Values, values: dict[str, Any]) -> Wiring:
+    """Return the wiring of a path whose parameters have values, or else their defaults."""
+    usual = {name: p.default for name, p in known.parameters.items() if not p.bound}
+    values = {name: value for name, value in usual.items() if value is not None} | values
+    return Wiring(with_arguments(known, values, for_good=True).graph)

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-import networkx as nx
 import numpy as np
 
 from optipath.composer.placement import (
@@ -31,6 +29,8 @@ from optipath.values.use import stored_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable, Sequence
+
+    import networkx as nx
 
     from optipath.composer.wiring import Link, Port
 
@@ -90,17 +90,6 @@ def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
     if others is graph:
         raise PathError(f"what is put behind '{port}' is the path that it stands in; use a copy")
     return [*join(graph, others, find_port(graph, port, out=True)).values()][-1]
-
-
-def beginning(graph: nx.MultiDiGraph, nodes: int, about: dict[str, Any]) -> nx.MultiDiGraph:
-    """Return a graph as it was when it had so many nodes, before more was put behind it."""
-    first = dict(islice(graph.nodes.items(), nodes))
-    result = nx.MultiDiGraph()
-    result.graph.update(about)
-    result.add_nodes_from(first.items())
-    links = graph.edges(first, keys=True, data=True)
-    result.add_edges_from(link for link in links if link[1] in first)
-    return result
 
 
 def as_chain(graph: nx.MultiDiGraph) -> list[str]:
@@ -465,6 +454,15 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
             cure = "give it that azimuth, or connect its link anew with azimuth=0.0"
             raise PathError(f"{why}, and the new element is not; {cure}")
     graph.nodes[name]["element"] = element
+
+
+def reading(graph: nx.MultiDiGraph, reads: str) -> nx.MultiDiGraph:
+    """Return a graph whose detectors and dumps read something else."""
+    result = graph.copy()
+    for node in result.nodes.values():
+        if hasattr(node["element"], "reads"):
+            node["element"] = dataclasses.replace(node["element"], reads=reads)
+    return result
 
 
 def _own_turn(element: Element) -> Any:

@@ -2,35 +2,45 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
 
 import networkx as nx
 
 from optipath.composer.composer import Composer, checked, put_off
-from optipath.composer.plain_graph import completed, whole
-from optipath.composer.port_frames import PortFrames
+from optipath.composer.path_values import Values
+from optipath.composer.plain_graph import completed, plain, whole
+from optipath.composer.port_frames import PathFrames
 from optipath.composer.wiring import KEEPABLE
 from optipath.elements.element import Chainable, Element, NamedElement, begun
 from optipath.elements.ends import Detector
 from optipath.errors import ComposerError, ParameterError, PathError
 from optipath.extras import needing
-from optipath.faults import Fault, shown, unknown
+from optipath.faults import shown, unknown
 from optipath.materials.named_materials import is_curve
 from optipath.paths import editing
-from optipath.paths.binding import PlaceChoice, cases_left, choice_faults, with_arguments
-from optipath.paths.graph_face import LENDING, GraphFace, wiring_at_defaults
-from optipath.paths.reversed import reversed_graph
+from optipath.paths.binding import (
+    PlaceChoice,
+    cases_left,
+    check_choices,
+    wiring_at_defaults,
+    with_arguments,
+)
+from optipath.paths.drawing import with_texts
+from optipath.paths.growing_graph import GrowingGraph
+from optipath.paths.node import Node
+from optipath.paths.reversed import reversed_cases, reversed_graph
 from optipath.values.arrays import same
 from optipath.values.parameters import check_named
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
     from os import PathLike
 
     import xarray as xr
+    from networkx.classes.reportviews import NodeView, OutMultiEdgeView
 
-    from optipath.composer.path_values import Values
     from optipath.composer.wiring import Loops
     from optipath.elements.ends import Source
     from optipath.light.frame import Frame
@@ -42,9 +52,10 @@ if TYPE_CHECKING:
     from optipath.sweeps.propagation import Propagation
     from optipath.sweeps.uncertainty import UncertaintyMethod
     from optipath.values.cases import Case
+    from optipath.values.parameters import Parameter
 
 
-class PathGraph(GraphFace):
+class PathGraph(Chainable):
     """An optical path: named elements, linked from out-port to in-port.
 
     Parameters
@@ -89,10 +100,9 @@ class PathGraph(GraphFace):
         PathError.raise_for(faults)
         self.description: str = about.pop("description")
         self.cases: dict[str, Case] = dict(about.pop("cases"))
-        self._graph = nx.MultiDiGraph(**about)
+        self._growing = GrowingGraph(nx.MultiDiGraph(**about))
         # What the graph has been composed to, until it changes.
         self._plans: dict[str | Composer, Plan] = {}
-        self._gathered = None
 
     @classmethod
     def from_networkx(cls, graph: nx.DiGraph[Any]) -> Self:
@@ -105,10 +115,6 @@ class PathGraph(GraphFace):
             have an ``out_port`` and an ``in_port``, the natural ones by default as ``>>`` takes
             them, and perhaps ``azimuth``, ``length`` and ``tap``; the graph perhaps ``loops``,
             ``description``, ``cases``, ``declared`` and ``choices``. Other attributes are kept.
-
-        Returns
-        -------
-        PathGraph
 
         Raises
         ------
@@ -128,13 +134,122 @@ class PathGraph(GraphFace):
         with put_off():
             own = completed(graph)
         path = cls(own.graph.pop("description"), own.graph.pop("cases"))
-        path._graph, own.graph["choices"] = own, dict(own.graph["choices"])
-        PathError.raise_for(
-            Fault.of(fault).under(f"choice '{name}'")
-            for name, choice in path.choices.items()
-            for fault in choice_faults(own, choice)
-        )
+        path._growing, own.graph["choices"] = GrowingGraph(own), dict(own.graph["choices"])
+        check_choices(own)
         return path
+
+    @property
+    def graph(self) -> nx.MultiDiGraph[str]:
+        """The networkx graph, to query and not to change.
+
+        Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
+        and carry ``azimuth`` and ``tap``.
+        """
+        return self._graph.copy(as_view=True)
+
+    @property
+    def nodes(self) -> NodeView[str]:
+        """The nodes as networkx has them, ``path.nodes["X1"]["element"]``; not to be changed."""
+        return self.graph.nodes
+
+    @property
+    def edges(self) -> OutMultiEdgeView[str]:
+        """The links as networkx has them, keyed as in `graph`; not to be changed."""
+        return self.graph.edges
+
+    def to_networkx(self, *, text: bool = False) -> nx.MultiDiGraph[str]:
+        """Return a plain networkx graph of the path, which is a copy and anybody's to change.
+
+        Parameters
+        ----------
+        text : bool, optional
+            Whether values are texts, for files such as GraphML and JSON: ``element`` is the kind,
+            and its fields follow by name. It is not read back; `to_toml` is.
+
+        Returns
+        -------
+        networkx.MultiDiGraph
+            With the attributes that `from_networkx` takes, where there is something to say.
+
+        Examples
+        --------
+        >>> import networkx as nx
+        >>> import optipath as op
+        >>> graph = (op.Source() >> op.Polarizer("30 deg") >> op.Detector()).to_networkx()
+        >>> print(*nx.topological_sort(graph))
+        source polarizer detector
+        >>> graph.edges["source", "polarizer", 0]
+        {'out_port': 'out', 'in_port': 'in'}
+        """
+        own = {"cases": dict(self.cases), "choices": self.choices}
+        graph = plain(self._graph, description=self.description, **own)
+        return with_texts(graph) if text else graph
+
+    def frames(self, /, *unnamed: Never, **parameters: Any) -> PathFrames:
+        """Return the frame of each port, and the turn on each link.
+
+        Parameters
+        ----------
+        *unnamed, **parameters : float or array_like
+            By name, the values of open parameters that frames depend on; their defaults otherwise.
+
+        Returns
+        -------
+        PathFrames
+            By node and port, with the turns of links as ``turns`` and the names of relative ports
+            as ``relative``. Ports with frames or points of their own, and those next to them, have
+            frames in space. Others are relative: the unit frame, whose z is the direction of the
+            light, where light begins, is deflected or meets other light; then, turned by each link.
+
+        Raises
+        ------
+        ParameterError
+            With every value that is missing, unknown or unsuitable.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> path = op.load_preset("npgr026", case=7)
+        >>> frames = path.frames(rho="90 deg")
+        >>> frames["X1"]["in"].x.round(12), frames["X1"]["reflected"] == op.Frame()
+        (array([ 0., -1.,  0.]), True)
+        >>> print(frames.turns["X2.reflected -> X1.in"].round(6), path["X1"].frames["in"].x)
+        -1.570796 [ 0.82903757 -0.5591929   0.        ]
+        """
+        check_named("frames", unnamed, self.parameters)
+        return PathFrames.of(wiring_at_defaults(self._values, parameters))
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """The parameters of all elements and links, by name, bound ones included."""
+        return dict(self._values.parameters)
+
+    @property
+    def choices(self) -> dict[str, PlaceChoice]:
+        """What is chosen by word before the path is composed, as `bind` takes it, by name."""
+        return dict(self._graph.graph["choices"])
+
+    @property
+    def loops(self) -> Loops:
+        """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
+        return self._graph.graph["loops"]  # type: ignore[no-any-return]
+
+    def element(self, name: str) -> Element:
+        """Return the element of a node.
+
+        Raises a `PathError` if there is no such node.
+        """
+        return editing.element_at(self._graph, name)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._graph
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of the nodes, in the order in which they were added."""
+        return iter(self._graph)
+
+    def __len__(self) -> int:
+        return len(self._growing)
 
     def __getitem__(self, name: str) -> Node:
         name, dot, port = name.partition(".") if isinstance(name, str) else (name, "", "")
@@ -171,7 +286,6 @@ class PathGraph(GraphFace):
             If the name is taken or not allowed, or a port does not exist.
         """
         editing.add(self._changing(), name, element, frames)
-        self._changed()
         return Node(self, name)
 
     def connect(self, leaves: str, enters: str, azimuth: Any = None, *, tap: bool = False) -> None:
@@ -186,8 +300,7 @@ class PathGraph(GraphFace):
             in radians; by default the azimuth of the element.
         tap : bool, optional
             Whether the link reads all the light of the out-port and takes nothing of it. An
-            out-port feeds one link, and any number of taps, each of which leads to ends of
-            its own.
+            out-port feeds one link, and any number of taps that lead to ends of their own.
 
         Raises
         ------
@@ -195,7 +308,6 @@ class PathGraph(GraphFace):
             If a port does not exist or runs the other way, or the link is there already.
         """
         editing.connect(self._changing(), leaves, enters, azimuth, tap)
-        self._changed()
 
     def disconnect(self, leaves: str, enters: str | None = None) -> None:
         """Take a link out.
@@ -212,7 +324,6 @@ class PathGraph(GraphFace):
             If there is no such link, or there are several.
         """
         editing.disconnect(self._changing(), leaves, enters)
-        self._changed()
 
     def insert(
         self,
@@ -225,21 +336,18 @@ class PathGraph(GraphFace):
     ) -> Node:
         """Put an element into a link, which is named by a port or by both.
 
-        It stands in the frame of the port that light comes from, turned by its own azimuth. What
-        stands behind is not turned by an element that light goes straight through; where it has
-        an azimuth of its own, its link takes that over. Taps of the port stay, and read the light
-        in front of the element.
+        It stands in the frame of the port that light comes from, turned by its own azimuth. An
+        element that light goes straight through does not turn what stands behind. Taps of the port
+        read the light in front of the element.
 
         Parameters
         ----------
         name, element
             As `add` takes them. The element has one natural way through.
         behind, before : str, optional
-            The port that the link leaves, or leads to, as ``"node.port"``, or ``"node"`` for its
-            natural one.
+            The port that the link leaves, or leads to, as `connect` takes them.
         frames : mapping of str to Frame, optional
-            The world frame of each port, as `add` takes them: where its axes stand in space. By
-            default that of the port that light comes from, if it has one.
+            As `add` takes them; by default that of the port that light comes from, if it has one.
 
         Returns
         -------
@@ -259,15 +367,15 @@ class PathGraph(GraphFace):
         >>> path
         <PathGraph: L >> P >> X2 >> X1 >> P2 >> E>
         """
-        self._edit(editing.insert, name, element, behind, before, frames)
+        editing.edit(self._changing(), editing.insert, name, element, behind, before, frames)
         return Node(self, name)
 
     def remove(self, name: str) -> None:
         """Take a node out, close the gap, and offer no places for it.
 
-        What stood before it is linked with what stood behind it, where one link came to it,
-        one left it, and light goes straight through. A node that no link comes to, or none
-        leaves, goes with its links.
+        What stood before it is linked with what stood behind it, where one link came to it, one
+        left it, and light goes straight through. A node that no link comes to, or none leaves,
+        goes with its links.
 
         Raises
         ------
@@ -275,10 +383,10 @@ class PathGraph(GraphFace):
             If there is no such node, or the links in the way do not tell how to close the gap;
             the path is as it was then.
         """
-        self._edit(editing.remove, name)
-        if self.choices:
-            left = {word: choice for word, choice in self.choices.items() if choice.node != name}
-            self._changing().graph["choices"] = left
+        graph = self._changing()
+        editing.edit(graph, editing.remove, name)
+        choices = self.choices.items()
+        graph.graph["choices"] = {word: one for word, one in choices if one.node != name}
 
     def replace(self, name: str, element: Element) -> Node:
         """Put another element in the place of one; its links and world frames stay.
@@ -288,10 +396,8 @@ class PathGraph(GraphFace):
 
         Parameters
         ----------
-        name : str
-            The node.
-        element : Element
-            With all ports that links and frames of the node use.
+        name, element
+            The node, and an element with all ports that links and frames of it use.
 
         Returns
         -------
@@ -303,7 +409,7 @@ class PathGraph(GraphFace):
             If a port is missing, frames would not fit, its link says another azimuth, or it lacks
             that of one that light does not go straight through; the path is as it was then.
         """
-        self._edit(editing.replace, name, element)
+        editing.edit(self._changing(), editing.replace, name, element)
         return Node(self, name)
 
     def offer(self, name: str, node: str, behind: Mapping[str, str], help: str = "") -> None:  # noqa: A002 - as parameters have it
@@ -314,8 +420,7 @@ class PathGraph(GraphFace):
         name : str
             That of the choice, which no parameter has.
         node : str
-            What is moved; it has one natural way through, and stands where it will if nothing
-            is chosen.
+            What is moved, if anything is chosen; it has one natural way through.
         behind : mapping of str to str
             The port behind which it is put, for each word.
         help : str, optional
@@ -334,13 +439,8 @@ class PathGraph(GraphFace):
         >>> path.bind(place="eye")
         <PathGraph: source >> mirror >> polarizer >> detector>
         """
-        if not isinstance(name, str) or not name.isidentifier():
-            raise PathError(f"choice name {shown(name)} must be letters, digits and underscores")
-        if name in self.choices or name in self.parameters:
-            raise PathError(f"choice or parameter '{name}' is there already; use another name")
-        choice = PlaceChoice(node, behind, help)
-        PathError.raise_for(choice_faults(self._graph, choice))
-        self._changing().graph["choices"] = self.choices | {name: choice}
+        choices = {name: PlaceChoice.named(name, self._values, node, behind, help)}
+        self._growing.change().graph["choices"] = self.choices | choices
         self._plans.clear()
 
     def __rshift__(self, behind: Element | NamedElement | PathGraph) -> Self:
@@ -351,11 +451,8 @@ class PathGraph(GraphFace):
         others = begun(behind)
         if twice := sorted(self.cases.keys() & others.cases.keys()):
             raise PathError(f"case '{twice[0]}' stands on both sides of >>; take one of them out")
-        with LENDING:
-            path, graph = self._lent_graph()
-            names = editing.join(graph, others._graph, self._tip)
-        tip = others._open_end
-        path._tip = tip and (names[tip[0]], tip[1])
+        growing, names = self._growing.followed_by(others._growing)
+        path = self._with(growing)
         path.description = self.description or others.description
         for name, case in others.cases.items():
             published = {names.get(end, end): light for end, light in case.published.items()}
@@ -376,9 +473,8 @@ class PathGraph(GraphFace):
         ----------
         *unnamed, **values : float, str, array_like, Material or curve
             By name, in radians and metres, or texts with units. A `Material` for the n of an index
-            gives its k as well. What depends on the wavelength, as `op.tabulated(...)` and a
-            `Spectrum` do, stands wherever the parameter stood, and leaves the path the parameter
-            wavelength.
+            gives its k as well. What depends on the wavelength, such as a `Spectrum`, makes that a
+            parameter of the path.
 
         Returns
         -------
@@ -392,7 +488,7 @@ class PathGraph(GraphFace):
         if unnamed:
             opened = [name for name, p in self.parameters.items() if not p.bound]
             check_named("bind", unnamed, opened)
-        path = self._having(with_arguments(self._values, values, for_good=True))
+        path = self._with(with_arguments(self._values, values, for_good=True))
         if self.parameters.keys() - path.parameters.keys():
             path.cases = cases_left(self.cases, {*path.parameters, *self.choices})
         return path
@@ -411,7 +507,7 @@ class PathGraph(GraphFace):
         >>> crossed.trace().intensity, crossed.trace(angle=0.0).intensity
         (array(0.), array(0.5))
         """
-        return self._having(with_arguments(self._values, values, for_good=False))
+        return self._with(with_arguments(self._values, values, for_good=False))
 
     def reading(self, reads: Reading) -> Self:
         """Return a copy of the path whose detectors and dumps read this, as `Detector` takes it.
@@ -423,31 +519,22 @@ class PathGraph(GraphFace):
         array([0.375,   nan,   nan,   nan])
         """
         PathError.raise_for(Detector(reads).faults("path.reading(...)"))
-        graph = self._graph.copy()
-        for node in graph.nodes.values():
-            if hasattr(node["element"], "reads"):
-                node["element"] = replace(node["element"], reads=reads)
-        return self._with(graph)
+        return self._with(editing.reading(self._graph, reads))
 
     def reversed(self, source: Source | Mapping[str, Source] | None = None) -> Self:
         """Return the path in which light goes the other way, from the detector to the source.
 
         Each element is met from the other side, in mirrored frames (x, -y, -z); sources are
-        detectors there, and detectors sources. What each link turns stays the same, and links say
-        it, and not elements. Parameters, defaults and cases stay, but for what is published;
-        values of the sources go with them, and what is chosen stays chosen where a turn stands
-        beside a place. ``path.reversed().mueller()`` is ``path.mueller().reversed()``, unless there
-        is a magnetic field (Sekera, J. Opt. Soc. Am. 56, 1732 (1966)).
+        detectors there, and detectors sources. Each link turns as before. Parameters, defaults and
+        cases stay, but for those of sources, and what is published. ``path.reversed().mueller()``
+        is ``path.mueller().reversed()``, unless there is a magnetic field (Sekera, J. Opt. Soc. Am.
+        56, 1732 (1966)).
 
         Parameters
         ----------
         source : Source or mapping of str to Source, optional
             The light that begins at the detector, or at several by name; by default unpolarised
             light of intensity 1, and none at a dump.
-
-        Returns
-        -------
-        PathGraph
 
         Raises
         ------
@@ -464,12 +551,7 @@ class PathGraph(GraphFace):
         0.681179
         """
         path = self._with(reversed_graph(self._graph, source))
-        path.cases = {}
-        known = {*path.parameters, *path.choices}
-        for name, case in self.cases.items():
-            left = {n: value for n, value in case.values.items() if n in known}
-            if not (self.choices.keys() - known).intersection(case.values):
-                path.cases[name] = replace(case, values=left, published={})
+        path.cases = reversed_cases(self.cases, self.choices, {*path.parameters, *path.choices})
         return path
 
     def to_toml(self) -> str:
@@ -636,8 +718,8 @@ class PathGraph(GraphFace):
             Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
             or a mapping of its name to them.
         coords : str, PathLike, Dataset, DataArray or mapping, optional
-            Axes besides: a CSV file with a column for each parameter, its unit in the heading; the
-            coordinates of a Dataset; or a mapping from names to values.
+            More axes: a CSV file with a column for each parameter and its unit in the heading, a
+            Dataset, or a mapping.
         chunks : int, str or mapping of str to int, optional
             The variables are Dask arrays of so many values along each dimension; ``"auto"`` for
             blocks of about a million.
@@ -645,11 +727,10 @@ class PathGraph(GraphFace):
             A Zarr store (``.zarr``) or a NetCDF file (``.nc``) that is written block by block; a
             Zarr store goes on where it stopped.
         scheduler : str or distributed.Client, optional
-            What computes the blocks for a store: ``"threads"``, ``"processes"``, ``"synchronous"``,
-            a client, or the address of a cluster.
+            What computes the blocks: ``"threads"``, ``"processes"``, ``"synchronous"``, a client,
+            or the address of a cluster.
         progress : bool or callable, optional
-            Whether a bar shows how far it is; or what is told how many blocks are done, and of how
-            many.
+            Whether a bar is shown; or what is called with the blocks that are done, and all.
         composer : Composer, optional
             How the path is composed.
         *unnamed, **axes : array_like
@@ -694,9 +775,8 @@ class PathGraph(GraphFace):
         Parameters
         ----------
         method : {"auto", "gradients", "differences", "monte-carlo"}, optional
-            Slopes by JAX where it is installed, traces the path and does not take long, else by
-            differences; by JAX; by differences; or samples of normal distributions, which are cut
-            off at the ends of ranges.
+            Slopes by JAX where it is installed and quick, else by differences; by JAX; by
+            differences; or samples of normal distributions, cut off at the ends of ranges.
         samples, seed : int, optional
             Of ``"monte-carlo"``: 10,000, and what random numbers begin with, 0, by default.
         correlation : mapping of pairs of str to float, optional
@@ -704,9 +784,8 @@ class PathGraph(GraphFace):
         detector, composer : optional
             As `mueller` and `sweep` take them; slopes are in float64, and exact.
         *unnamed, **values : tuple of two, or array_like
-            By name, a value and its standard uncertainty (one standard deviation), in radians,
-            metres or texts with units, ``delta=("48 deg", "0.1 deg")``; they may be arrays that
-            broadcast. What is no tuple is exact.
+            By name, a value and its standard uncertainty, in radians, metres or texts with units,
+            ``delta=("48 deg", "0.1 deg")``, or arrays of both. What is no tuple is exact.
 
         Returns
         -------
@@ -715,8 +794,7 @@ class PathGraph(GraphFace):
         Raises
         ------
         ParameterError, MissingExtraError
-            With everything that is wrong with values and options, or if JAX is asked for and
-            not installed.
+            With everything that is wrong, or if JAX is asked for and not installed.
 
         Examples
         --------
@@ -734,6 +812,9 @@ class PathGraph(GraphFace):
 
         options = method, samples, seed, correlation, detector, composer
         return propagate(self, unnamed, values, *options)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: one for name, one in vars(self).items() if name != "_values"}
 
     def __copy__(self) -> Self:
         return self._with(self._graph.copy())
@@ -758,76 +839,38 @@ class PathGraph(GraphFace):
         nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
         return f"<{type(self).__name__} with {nodes} nodes and {links} links>"
 
-    def _edit(self, change: Callable[..., None], *arguments: Any) -> None:
-        editing.edit(self._changing(), change, *arguments)
-        self._changed()
+    @cached_property
+    def _values(self) -> Values:
+        """The values of the path, gathered once until it changes."""
+        return Values(self._graph)
+
+    @property
+    def _graph(self) -> nx.MultiDiGraph[str]:
+        """The graph, to be read."""
+        return self._growing.read()
+
+    def _changing(self) -> nx.MultiDiGraph[str]:
+        """Return the graph for a change, and forget what followed from it."""
+        self._plans.clear()
+        vars(self).pop("_values", None)
+        return self._growing.change()
 
     def _append(self, port: str, others: PathGraph) -> str:
         """Add other elements behind a port, and return the name of the last of them."""
-        last = editing.append(self._changing(), port, others._graph)
-        self._changed()
-        return last
+        return editing.append(self._changing(), port, others._graph)
 
-    def _changed(self) -> None:
-        self._plans.clear()
-        self._gathered = None
-
-    def _having(self, values: Values) -> Self:
-        path = self._with(values.graph)
-        path._gathered = values  # noqa: SLF001 - its own
-        return path
-
-    def _with(self, graph: nx.MultiDiGraph) -> Self:
+    def _with(self, graph: nx.MultiDiGraph[str] | GrowingGraph | Values) -> Self:
+        """Return a path like this one with another graph, or one whose values are known."""
         path = type(self)(self.description, self.cases)
-        path._graph = graph  # noqa: SLF001 - its own
+        if isinstance(graph, Values):
+            path._values, graph = graph, graph.graph  # noqa: SLF001 - its own
+        path._growing = graph if isinstance(graph, GrowingGraph) else GrowingGraph(graph)  # noqa: SLF001
         return path
 
     def _with_curves(self, parameters: dict[str, Any]) -> PathGraph | None:
         """Return the path bound to what depends on the wavelength, which is taken out; or none."""
         curves = {n: parameters.pop(n) for n in [*parameters] if is_curve(parameters[n])}
         return self.bind(**curves) if curves else None
-
-
-@dataclass(frozen=True)
-class Node(Chainable):
-    """A named element in its path; ``a >> b`` links the natural way out of a to b.
-
-    An element or a chain in no path yet is added to the path of the first.
-    """
-
-    path: PathGraph
-    name: str
-    port: str = ""
-
-    def __rshift__(self, behind: Chainable) -> Node:  # type: ignore[override] # it has a path
-        if not isinstance(behind, Node):
-            return Node(self.path, self.path._append(self._text, begun(behind)))
-        if behind.path is not self.path:
-            raise PathError(f"'{self.name}' and '{behind.name}' stand in different paths; use one")
-        self.path.connect(self._text, behind._text)
-        return Node(behind.path, behind.name)
-
-    @property
-    def frames(self) -> dict[str, Frame]:
-        """The frame of each port, as `PathGraph.frames` has it, with parameters at their defaults.
-
-        >>> import optipath as op
-        >>> op.load_preset("npgr026-3d")["X2"].frames["in"].x.round(12) + 0.0
-        array([1., 0., 0.])
-        """
-        return PortFrames(wiring_at_defaults(values_of(self.path), {})).of(self.name)
-
-    @property
-    def _text(self) -> str:
-        return f"{self.name}.{self.port}" if self.port else self.name
-
-    def __repr__(self) -> str:
-        return f"Node '{self._text}'"
-
-
-def values_of(path: PathGraph) -> Values:
-    """Return the values of a path, gathered once until it changes."""
-    return path._values  # noqa: SLF001 - its own
 
 
 def path_of(first: Any) -> PathGraph:

@@ -24,11 +24,12 @@ from optipath.paths.editing import find_port
 from optipath.values.arrays import changed, same
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Container, Iterable, Iterator
 
     from optipath.composer.wiring import Link, Port
     from optipath.light.frame import Frame
     from optipath.paths.binding import PlaceChoice
+    from optipath.values.cases import Case
 
 
 _SAME = 1e-9
@@ -53,6 +54,18 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
         key = turning.port(end, enters), turning.port(start, leaves)
         result.add_edge(end, start, key=key, azimuth=turning.azimuth(link), tap=False)
     return result
+
+
+def reversed_cases(
+    cases: Mapping[str, Case], choices: Iterable[str], known: Container[str]
+) -> dict[str, Case]:
+    """Return the cases that are left where light goes the other way, and these names are known."""
+    gone = [name for name in choices if name not in known]
+    results = {name: one for name, one in cases.items() if one.values.keys().isdisjoint(gone)}
+    for name, one in results.items():
+        left = {argument: value for argument, value in one.values.items() if argument in known}
+        results[name] = replace(one, values=left, published={})
+    return results
 
 
 class _Turning:

@@ -15,7 +15,7 @@ from optipath.materials.quantities import ANGLE
 from optipath.paths.files import schema
 from optipath.paths.files.schema import FORMAT, Faults, checked_table, each_key, parsed
 from optipath.paths.files.values import decode, decode_argument, text_or_number, wavelength_names
-from optipath.paths.path_graph import PathGraph, values_of
+from optipath.paths.path_graph import PathGraph
 from optipath.values.cases import Case, name_faults
 from optipath.values.parameters import Parameter
 from optipath.values.units import USUAL_UNITS, dimension_of, with_article
@@ -77,7 +77,7 @@ def read(document: Table) -> PathGraph:
             faults.attempt(f"links[{number}]", _connect, path, table, parameters)
             faults.refuse(_ENOUGH)
     faults.refuse()
-    values = values_of(path)
+    values = path._values  # noqa: SLF001 - which stay with the path
     faults += _unit_faults(values, parameters)
     faults.refuse()
     checked(values)
