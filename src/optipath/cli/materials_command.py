@@ -186,8 +186,7 @@ def material_report(
     with OptipathError.collecting(faults):
         asked = parse_quantity(incidence, "angle", "deg")
         angle = float(INCIDENCE_DOMAIN.check("--incidence", asked))
-    if faults:
-        raise MaterialError(*faults)
+    MaterialError.raise_for(faults)
     parts = Material.named(name, page=page, **own)
     there = np.array(where)
     figures: dict[str, npt.NDArray[Any]] = {}

@@ -74,8 +74,7 @@ def request_of(
             "--detector is of a trail along --x, and without it the trail goes along the whole "
             "path; add --x NAME, or leave --detector out"
         )
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     ends = (*detectors,) if detector is None else (detector,)
     is_changed = chosen.values or chosen.axes or reads or chosen.case is None
     published = {} if is_changed else path.cases[chosen.case or ""].published

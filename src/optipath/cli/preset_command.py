@@ -256,8 +256,7 @@ class Cases(list[Chosen]):
         for fault, of in having.items():
             where = "" if len(of) == len(self) else f"case{'s' * (len(of) > 1)} {listed(of)}"
             faults.append(fault.under(where))
-        if faults:
-            raise ParameterError(*faults)
+        ParameterError.raise_for(faults)
         return results
 
     def say_json(self, results: Mapping[str, T], as_json: Callable[[T], dict[str, Any]]) -> None:

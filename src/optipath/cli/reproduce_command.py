@@ -43,8 +43,7 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
     """
     faults = Faults()
     loaded = [faults.attempt("", load_experiment, name) for name in names or experiment_names()]
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     experiments = [one for one in loaded if one is not None]
     if listed and as_json:
         say_json({one.name: one.description for one in experiments})

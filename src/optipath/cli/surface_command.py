@@ -182,8 +182,7 @@ def _walks(
         faults.attempt("", partial(run_arguments, sample, angle.given, **options))
         for angle in angles
     ]
-    if faults:
-        raise SurfaceError(*dict.fromkeys(faults))
+    SurfaceError.raise_for(faults)
     return [
         Walk(angle, lights, *run, options["tolerance"])
         for angle, run in zip(angles, filter(None, runs), strict=True)
@@ -313,8 +312,7 @@ def _draw_map(
         faults.append(f"a map of {drawn.variable} is of one wavelength; give --wavelength one")
     if drawn.masked and any(beam.states[0][1:]):
         faults.append(f"{drawn.variable} is of unpolarised light; leave --stokes out")
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     with console.photon_bar(walk.direction) as progress:
         incidence = walk.incidence.given.item()
         measured = measure(beam.sample, incidence, **walk.keywords, progress=progress)

@@ -132,8 +132,7 @@ class ExploredPresets:
 
     def base(self, preset: str) -> PathGraph:
         """Return the path of a name, nothing chosen in it."""
-        if faults := unknown("preset", preset, self._descriptions):
-            raise ParameterError(*faults)
+        ParameterError.raise_for(unknown("preset", preset, self._descriptions))
         if preset not in self._bases:
             self._bases[preset] = load_preset(preset)
         return self._bases[preset]

@@ -90,8 +90,7 @@ def _parts(
         if name in argument and (name in needed or argument[name] is not None):
             with ParameterError.collecting(faults):
                 read[name] = readers[name](f"{prefix}{name}", argument[name])
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     return read
 
 
@@ -127,14 +126,12 @@ def _words(name: str, argument: Any) -> tuple[str, ...]:
 
 def _want(name: str, argument: Any) -> tuple[str, ...]:
     words = _words(name, argument)
-    if faults := [sentence for word in words for sentence in unknown(name, word, WANTED)]:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(sentence for word in words for sentence in unknown(name, word, WANTED))
     return words
 
 
 def _form(name: str, argument: Any) -> str:
-    if faults := unknown(name, _text(name, argument), FORMS):
-        raise ParameterError(*faults)
+    ParameterError.raise_for(unknown(name, _text(name, argument), FORMS))
     return str(argument)
 
 
@@ -217,8 +214,7 @@ def read_state(presets: ExploredPresets, request: RequestedState) -> ReadState:
         state = _placed(presets, state, {n: v for n, v in known.items() if n not in places})
     except OptipathError as error:
         faults += state.faults(error)
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     return state
 
 
@@ -226,8 +222,7 @@ def read_path(presets: ExploredPresets, request: RequestedState) -> ExploredPath
     """Return the path that is asked for, its places chosen, and no values looked at."""
     faults: list[str] = []
     explored, _ = _opened(presets, request, faults)
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     return explored
 
 

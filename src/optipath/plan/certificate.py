@@ -101,8 +101,7 @@ def intensity_bounds(
     for name, (value, domain) in arguments.items():
         with ValueFault.collecting(faults):
             numbers[name] = domain.check(name, value)
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     check_broadcast({name: number.shape for name, number in numbers.items()})
     first, *others = map(np.abs, numbers.values())
     boosts = reduce(lambda result, t: boosted(NUMPY, result, t), others, Boosts(first))

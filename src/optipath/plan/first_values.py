@@ -45,8 +45,7 @@ class FirstValues:
             return
         argument = read()
         faults = [fault for way in self.ways for fault in _faults(way, argument)]
-        if faults:
-            raise ParameterError(*faults)
+        ParameterError.raise_for(faults)
         if len(self._seen) >= _MOST_VALUES:
             self._seen.clear()
         self._seen.add(kind)

@@ -68,8 +68,7 @@ def light_paths(
     """Return the ways of light through a path, the brightest first."""
     faults = [] if limit is None else whole_number("limit", limit)
     faults += [] if bounces is None else whole_number("bounces", bounces, 0)
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     if limit is None and (place := endless(whole.program, bounces)):
         cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
         raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")

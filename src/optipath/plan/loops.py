@@ -82,8 +82,7 @@ def check_gains(solvers: Sequence[LoopSolver]) -> None:
                 f"errors of the values that are given may be enlarged",
                 LoopWarning,
             )
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
 
 
 class _Judged:

@@ -191,8 +191,7 @@ class Plan:
         """
         check_named("stream", unnamed, self.inputs.open)
         name, _, _ = self._detector
-        if faults := whole_number("the size of a part", size):
-            raise ParameterError(*faults)
+        ParameterError.raise_for(whole_number("the size of a part", size))
         for where, lights in self.answers.stream(size, parameters):
             yield Part(where, self.answers.in_frames(lights, parameters, where)[name])
 
@@ -343,8 +342,7 @@ class Plan:
         >>> plan.engine, plan.engine_for(10)
         ('numpy', 'numpy, step by step')
         """
-        if faults := whole_number("the number of paths", count, 0):
-            raise ParameterError(*faults)
+        ParameterError.raise_for(whole_number("the number of paths", count, 0))
         return self.answers.light.engine_for(min(count, MOST_PATHS))
 
     def explain(self) -> str:

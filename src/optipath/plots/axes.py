@@ -92,8 +92,7 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
     first = np.array(drawn, object).ravel()[:1]
     if not (first.size and isinstance(first[0], Axes | Figure)):
         raise OptipathError(f"{shown(drawn)} is no picture; give what a function of plots returned")
-    if faults := positive("dots_per_inch", dots_per_inch):
-        raise OptipathError(*faults)
+    OptipathError.raise_for(positive("dots_per_inch", dots_per_inch))
     place = input_file(file, OptipathError)
     with message_of(place, OptipathError), missing_letters_as_boxes():
         write_picture(first[0].figure.figure, place, dots_per_inch)

@@ -82,8 +82,7 @@ def at_detector(dataset: Any, detector: str | None) -> Any:
         return dataset.squeeze(DETECTOR) if DETECTOR in dataset.dims else dataset
     if not known:
         raise OptipathError("the Dataset is of one detector, which it does not name; leave it out")
-    if faults := unknown("detector", detector, known):
-        raise OptipathError(*faults)
+    OptipathError.raise_for(unknown("detector", detector, known))
     return dataset.sel(detector=detector) if DETECTOR in dataset.dims else dataset
 
 
@@ -98,8 +97,7 @@ def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
     }
     of = {name: dimension for dimension, each in along.items() for name in each}
     arguments = [name for name in names if name is not None]
-    if faults := [one for name in arguments for one in unknown("coordinate", name, of)]:
-        raise OptipathError(*faults)
+    OptipathError.raise_for(one for name in arguments for one in unknown("coordinate", name, of))
     taken = {of[name] for name in arguments}
     if len(taken) < len(arguments):
         raise OptipathError(f"{listed(arguments)} are along one dimension; give one of each")
@@ -143,8 +141,7 @@ def numbers_of(dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis])
     """Return a quantity as it is drawn."""
     other = CAPITALIZED.get(quantity.name, quantity.name)
     name = other if other in dataset.data_vars else quantity.name
-    if faults := unknown("variable", name, [str(each) for each in dataset.data_vars]):
-        raise OptipathError(*faults)
+    OptipathError.raise_for(unknown("variable", name, [str(each) for each in dataset.data_vars]))
     dimensions = [dataset.coords[axis.name].dims[0] for axis in axes]
     numbers = dataset[name].squeeze().transpose(*dimensions).values
     return quantity.of(numbers)

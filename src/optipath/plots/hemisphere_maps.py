@@ -104,8 +104,7 @@ def hemisphere(
         faults.append(f"largest is given, but colours of {drawn.variable} end at their own limits")
     if drawn.over_wavelengths and wavelength is not None:
         faults.append(f"{drawn.variable} is of all wavelengths together; leave wavelength out")
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     seen = SeenSide.of(measured, side, wavelength, source, every=drawn.over_wavelengths)
     if drawn.masked and any(seen.source[1:]):
         raise SurfaceError(f"{drawn.variable} is of unpolarised light; leave source out")
@@ -157,8 +156,7 @@ def mueller_hemisphere(
     >>> mueller_hemisphere(found)[0, 1].get_title()
     'M01 / M00'
     """
-    if faults := positive("known_to", known_to):
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(positive("known_to", known_to))
     limit = _KNOWN_TO if known_to is None else known_to
     seen = SeenSide.of(measured, side, wavelength, UNPOLARISED)
     panel = own_panel(axes, (4, 4), (9.6, 9.4))

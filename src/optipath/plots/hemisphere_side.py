@@ -189,8 +189,7 @@ class PixelQuantity(NamedTuple):
             raise SurfaceError(
                 f"mask is {shown(mask)}; give a mapping, such as {{'brighter_than': 0.5}}"
             )
-        if faults := [fault for key in mask for fault in unknown("mask", key, self.masked)]:
-            raise SurfaceError(*faults)
+        SurfaceError.raise_for(fault for key in mask for fault in unknown("mask", key, self.masked))
 
 
 _MASK = "brighter_than", "noise", "known_to"
@@ -213,8 +212,7 @@ QUANTITIES = {each.variable: each for each in _ALL}
 
 def quantity_of(name: Any, known: Collection[str]) -> PixelQuantity:
     """Return the quantity of a name, one of those that are known."""
-    if faults := unknown("quantity", name, known):
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(unknown("quantity", name, known))
     return QUANTITIES[name]
 
 

@@ -90,8 +90,7 @@ def drawn_quantities(names: Any) -> list[DrawnQuantity]:
     faults = [sentence for name in read for sentence in unknown("quantity", name, known)]
     if not faults and len({*read}) < len(read):
         faults = [f"quantities are {shown([*argument])}; give each of them once"]
-    if faults:
-        raise OptipathError(*faults)
+    OptipathError.raise_for(faults)
     return [DrawnQuantity(known[name]) for name in read]
 
 
@@ -128,8 +127,7 @@ def varied(
             for name, value in fixed.items()
             if not isinstance(value, str) and np.ndim(value) > len(inputs.tails.get(name, ()))
         ]
-    if faults:
-        raise ParameterError(*faults)
+    ParameterError.raise_for(faults)
     return tuple(inputs.open[name] for name in names)
 
 
@@ -225,8 +223,7 @@ def end_of(path: PathGraph, detector: Any) -> str:
     """Return the detector that is meant."""
     ends = [name for name, e in path.graph.nodes(data="element") if not e.outputs]
     if detector is not None:
-        if faults := unknown("detector", detector, ends):
-            raise ParameterError(*faults)
+        ParameterError.raise_for(unknown("detector", detector, ends))
         return str(detector)
     detectors = [*path.compose().program.detectors]
     if len(detectors) > 1:

@@ -88,8 +88,7 @@ def in_plane(
     if not several:
         raise SurfaceError("measured is an empty mapping; give one Hemisphere at least")
     drawn = quantity_of(quantity, _LIMITS)
-    if faults := positive("known_to", known_to):
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(positive("known_to", known_to))
     sides = _sides(several, side, wavelength, source)
     if quantity == "difference" and any(any(seen.source[1:]) for seen in sides.values()):
         raise SurfaceError("difference is of unpolarised light; leave source out")

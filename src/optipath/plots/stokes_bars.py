@@ -185,8 +185,7 @@ def published_for(published: Any, light: Any, several: Mapping[str, Any]) -> dic
         rows = _numbers("published", published, (*light.shape, 4)).reshape(-1, 4)
         return dict(zip(several, rows, strict=True))
     faults = [fault for name in published for fault in unknown("published", name, several)]
-    if faults:
-        raise OptipathError(*faults)
+    OptipathError.raise_for(faults)
     return {
         name: _numbers(f"published {shown(name)}", each, (4,)) for name, each in published.items()
     }

@@ -109,8 +109,7 @@ def single_scattering(
     if not faults:
         shaped = numbers | {"incoming": before.z[..., 0], "outgoing": behind.z[..., 0]}
         faults.attempt("", check_broadcast, {name: each.shape for name, each in shaped.items()})
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     alphas = numbers["alpha"], numbers.get("alpha_y", numbers["alpha"])
     media: tuple[Any, ...] = numbers["outside"], *parts_of(numbers["index"])
     kernel, media = REFLECTION.methods["stable"].specialised(media, _vanishes)

@@ -72,8 +72,7 @@ class HeightField(Unchanging):
         heights = faults.attempt("", heights_of, self.heights, periodic=periodic)
         size = pair_of("size", self.size, faults)
         alpha = None if self.alpha is None else pair_of("alpha", self.alpha, faults)
-        if faults:
-            raise SurfaceError(*faults)
+        SurfaceError.raise_for(faults)
         vars(self).update(heights=heights, size=size, periodic=periodic, alpha=alpha)
 
     @classmethod

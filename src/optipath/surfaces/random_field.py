@@ -46,8 +46,7 @@ def random_field(
     if not isinstance(seed, np.random.SeedSequence):
         faults += whole_number("seed", seed, 0)
     faults += whole_number("waves", waves)
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     fewer = "take fewer cells, or a smaller field"
     refuse_too_large(mesh, _CELL, fewer, SurfaceError, "mesh of {:.3g} cells")
     refuse_too_large((waves,), _WAVE, "take fewer waves", SurfaceError, "sum of {:.3g} waves")

@@ -378,8 +378,7 @@ def _measurements(
             f"published is {shown(numbers)}; write a number, or [LEAST, LARGEST], for each of the "
             f"{len(angles)} angles of incidence"
         )
-    if faults:
-        raise SurfaceError(*dict.fromkeys(faults))
+    SurfaceError.raise_for(faults)
     limits: dict[str, Any] = {name: float(table[name]) for name in _LIMITS if name in table}
     about = {"text": table["text"], "stokes": stokes, **limits}
     return [

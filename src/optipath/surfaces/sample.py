@@ -191,8 +191,7 @@ def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
         place: faults.attempt("", _index_at, place, medium, wavelength, clear=place != base)
         for place, medium in media.items()
     }
-    if faults:
-        raise SurfaceError(*dict.fromkeys(faults))
+    SurfaceError.raise_for(faults)
     last = np.broadcast_arrays(*results.values())[-1]
     n, k = np.array(last.real), np.array(last.imag)
     if not n.size:
@@ -212,8 +211,7 @@ def _index_at(place: str, medium: Any, wavelength: Any, *, clear: bool) -> npt.N
         return np.asarray(medium, complex)
     faults = Faults()
     there: Any = faults.attempt(place, medium.at, wavelength)
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     index = INDEX.check(place, np.asarray(there.n) + 1j * np.asarray(there.k))
     if clear:
         _refuse_absorbing(place, index)
@@ -283,8 +281,7 @@ class Sample(Unchanging):
         periodic = faults.attempt("", YES_OR_NO.check, "periodic", self.periodic)
         if cells is not None and layers and not any(layer.is_random for layer in layers):
             faults.append("cells is given, but no interface is random; leave it out")
-        if faults:
-            raise SurfaceError(*faults)
+        SurfaceError.raise_for(faults)
         surfaces, seed = int(self.surfaces), int(self.seed)
         stored = {"outside": outside, "cells": cells, "surfaces": surfaces, "seed": seed}
         vars(self).update(stored, layers=layers, periodic=periodic)

@@ -123,8 +123,7 @@ def _sample(document: dict[str, Any], folder: Path) -> Sample:
     others = {key: value for key, value in document.items() if key not in ("format", "layers")}
     if "outside" in others:
         others["outside"] = faults.attempt("outside", _index, others["outside"])
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     return Sample(layers, **others)
 
 
@@ -140,8 +139,7 @@ def _layer(table: Any, folder: Path) -> SampleLayer:
     name, rough = table.get("heights", ""), table.get("alpha")
     if not faults and rough is None:
         rough = faults.attempt(f".heights {shown(name)}", _heights, table, folder)
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     return SampleLayer(index, rough, name)
 
 
@@ -175,8 +173,7 @@ def toml_of(options: Mapping[str, Any], layers: Sequence[SampleLayer]) -> str:
         for name, value in options.items()
     }
     rows = [faults.attempt(f"layers[{at}]", _row, layer) for at, layer in enumerate(layers)]
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     return "\n".join([toml_lines("", top), *[toml_lines("[[layers]]", row or {}) for row in rows]])
 
 

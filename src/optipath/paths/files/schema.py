@@ -61,8 +61,7 @@ def checked_table(raw: Any, known: Collection[str], needed: Iterable[str] = ()) 
     if not isinstance(raw, dict):
         raise PresetError(f"{shown(raw)} must be a table")
     missing = [Fault(f"'{key}' is missing") for key in needed if key not in raw]
-    if faults := type_faults("", raw, known) or missing:
-        raise PresetError(*faults)
+    PresetError.raise_for(type_faults("", raw, known) or missing)
     return raw
 
 

@@ -211,8 +211,7 @@ class PixelMask:
             if not (name == "noise" and value is None)
             and (real_number(value) is None or value < 0.0)
         ]
-        if faults:
-            raise SurfaceError(*faults)
+        SurfaceError.raise_for(faults)
 
     def bright(self, light: Numbers) -> npt.NDArray[np.bool_]:
         """Return which pixels (rows, columns) are bright enough."""

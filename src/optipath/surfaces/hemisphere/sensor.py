@@ -62,8 +62,7 @@ class Sensor:
         """Refuse all faults."""
         faults = whole_number("pixels", self.pixels) + whole_number("parts", self.parts, 2)
         faults += unknown("projection", self.projection, PROJECTIONS)
-        if faults:
-            raise SurfaceError(*faults)
+        SurfaceError.raise_for(faults)
         vars(self).update(pixels=int(self.pixels), parts=int(self.parts))
 
     @classmethod

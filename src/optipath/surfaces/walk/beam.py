@@ -197,8 +197,7 @@ def state_argument(name: str, stokes: npt.ArrayLike) -> tuple[float, float, floa
     state: Any = faults.attempt("", _one, name, stokes, _STOKES.unphysical)
     if state is not None and not (state[0] > 0.0 and _STOKES.allows(np.array(state))):
         faults.append(f"{name} is {[*state]}; give S0 > 0 and S1^2 + S2^2 + S3^2 <= S0^2")
-    if faults:
-        raise SurfaceError(*faults)
+    SurfaceError.raise_for(faults)
     return state  # type: ignore[no-any-return]
 
 
