@@ -21,12 +21,12 @@ from optipath.lab.errors import errors
 from optipath.lab.many_digits import Reader
 from optipath.lab.path_reference import exact_batch, exact_lights, exact_stokes
 from optipath.lab.regions import REGIONS
-from optipath.lab.step_reference import mueller_table
 from optipath.lab.tables import BEGIN, END, SEARCHED, put_tables, tables, worst
 from optipath.light.conventions import CONVENTIONS
 from paths import chain
 from published import npgr026
 from slabs import stack
+from step_reference import mueller_table
 from tables import rows
 
 NAMES = {region.name: region for region in REGIONS}
@@ -346,7 +346,8 @@ def test_the_file_of_mueller_matrices_is_what_its_command_writes():
     assert FILE.read_text("utf-8") == mueller_table()
     command, file = TABLE["made by"].split(" > ")
     _, *arguments = command.split()
-    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, check=True)
+    command = [sys.executable, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT)
     assert done.stdout == (ROOT / file).read_text("utf-8")
     # Names are unique, numbers have twenty digits, and the page counts the matrices.
     assert len(MATRICES) == len(TABLE["matrices"])

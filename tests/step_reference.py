@@ -3,7 +3,7 @@
 A step is a word with values by name, as texts: `("reflection", {"n": "1.5", "incidence": "30"})`.
 Angles are in degrees. No kernel and no element of the library is used.
 
-``python -m optipath.lab.step_reference > docs/reference-mueller-matrices.json`` writes it.
+``python tests/step_reference.py > docs/reference-mueller-matrices.json`` writes it.
 """
 
 from __future__ import annotations
@@ -206,7 +206,7 @@ def entries() -> Iterator[tuple[str, list[Step]]]:
 
 def mueller_table() -> str:
     """Return the table as JSON, one row of a matrix in a line."""
-    made = f"python -m {__spec__.name} > docs/reference-mueller-matrices.json"
+    made = "python tests/step_reference.py > docs/reference-mueller-matrices.json"
     signs = {name: _row(f"{sign:g}" for sign in c.signs) for name, c in CONVENTIONS.items()}
     content = {
         "description": "Mueller matrices from 50-digit arithmetic, rounded to 20 digits",
