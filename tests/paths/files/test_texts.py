@@ -49,13 +49,18 @@ def test_names_are_files_of_the_folder_whose_texts_have_no_mark_of_their_bytes(f
         assert str(error.value).startswith(sentence)
 
 
+DEEP = "slip.toml' is nested more than 16 deep; write it flatter$"
 SLIPS = [
     ("angle = 30 deg", r"line 2, column \d+\): 'angle = 30 deg'"),
     ('kind = "interface', r"line 2, column \d+\): 'kind = .*interface'"),
     ("optional = True # no", "line 2, column 12"),
     ("[elements.a]\n[elements.a]", r"twice .*: '\[elements.a\]'"),
     ("indices = [1, 1.5", "Unclosed array"),
-    ("x = " + "[" * 9000, "too deeply nested"),
+    *(("x = " + way * 100_000, DEEP) for way in ("[", "{a = ")),
+    *(("x = " + "[" * count + "]" * count, DEEP) for count in (17, 100, 400)),
+    # For which Python's reader takes 40 GB.
+    *((start + "a" + ".a" * 100_000, DEEP) for start in ("", "[[", "x = [1, {", "x = {y = 1, ")),
+    ("\"a\\\"\"\t. 'a' . b-1" + ".a" * 14 + " = 1", DEEP),
     ("x = " + "9" * 5000, "digits"),
 ]
 

@@ -146,13 +146,28 @@ def joined(faults: Iterable[str]) -> list[Fault]:
 
 _LARGEST = 4 * 1024 * 1024
 
+_DEEPEST = 16
+"""How many tables and lists may stand in each other."""
+
+_PART = r"""(?:[\w-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+"""
+_DEEP_KEY = re.compile(rf"(?:^|[\[{{,])[ \t]*+(?:{_PART}){{{_DEEPEST}}}", re.MULTILINE)
+
 
 def parsed(text: str, source: str) -> dict[str, Any]:
     """Return what a text holds."""
+    deep = PresetError(f"'{source}' is nested more than {_DEEPEST} deep; write it flatter")
+    if _DEEP_KEY.search(text):  # For which time and memory of tomllib are quadratic.
+        raise deep
     try:
-        return tomllib.loads(text)
+        level: list[Any] = [document := tomllib.loads(text)]
+        for _ in range(_DEEPEST):
+            each = [one.values() if isinstance(one, dict) else one for one in level]
+            level = [one for several in each for one in several if isinstance(one, dict | list)]
+        if level:
+            raise deep
+        return document
     except RecursionError:
-        raise PresetError(f"'{source}' is too deeply nested") from None
+        raise deep from None
     except ValueError as error:  # Also of numbers of more than 4300 digits.
         place = re.search(r"\(at line (\d+),", str(error))
         line = text.split("\n")[int(place[1]) - 1].strip() if place else ""
