@@ -60,7 +60,7 @@ SLIPS = [
     *(("x = " + "[" * count + "]" * count, DEEP) for count in (17, 100, 400)),
     # For which Python's reader takes 40 GB.
     *((start + "a" + ".a" * 100_000, DEEP) for start in ("", "[[", "x = [1, {", "x = {y = 1, ")),
-    ("\"a\\\"\"\t. 'a' . b-1" + ".a" * 14 + " = 1", DEEP),
+    ('"a\\""\t. \'a\' . b-1' + ".a" * 14 + " = 1", DEEP),
     ("x = " + "9" * 5000, "digits"),
 ]
 

@@ -159,13 +159,7 @@ def parsed(text: str, source: str) -> dict[str, Any]:
     if _DEEP_KEY.search(text):  # For which time and memory of tomllib are quadratic.
         raise deep
     try:
-        level: list[Any] = [document := tomllib.loads(text)]
-        for _ in range(_DEEPEST):
-            each = [one.values() if isinstance(one, dict) else one for one in level]
-            level = [one for several in each for one in several if isinstance(one, dict | list)]
-        if level:
-            raise deep
-        return document
+        document = tomllib.loads(text)
     except RecursionError:
         raise deep from None
     except ValueError as error:  # Also of numbers of more than 4300 digits.
@@ -173,6 +167,13 @@ def parsed(text: str, source: str) -> dict[str, Any]:
         line = text.split("\n")[int(place[1]) - 1].strip() if place else ""
         where = f": {shown(line)}" if line else ""
         raise PresetError(f"'{source}' is not TOML: {error}{where}") from None
+    level: list[Any] = [document]
+    for _ in range(_DEEPEST):
+        each = [one.values() if isinstance(one, dict) else one for one in level]
+        level = [one for several in each for one in several if isinstance(one, dict | list)]
+    if level:
+        raise deep
+    return document
 
 
 def files_in(folder: Path) -> dict[str, Path]:
