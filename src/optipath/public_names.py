@@ -61,5 +61,8 @@ def _other(package: str, name: str, home_of: Mapping[str, str]) -> Any:
     cure = f"; did you mean {places[near]}?" if near else ""
     cure = f"; it is {places[name]}" if name in places else cure
     wrong = f"module '{package}' has no attribute '{name}'{cure}"
+    # By `from optipath import ...`, which else says a sentence of its own.
+    if sys._getframe(2).f_code.co_name == "_handle_fromlist":  # noqa: SLF001 - of Python's importlib
+        raise ImportError(wrong, name=package)
     # With an object, Python would add a name of its own to the one above.
     raise AttributeError(wrong, name=name)
