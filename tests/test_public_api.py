@@ -209,7 +209,7 @@ def test_a_name_of_a_group_is_no_name_at_the_top_which_says_where_it_is(name, cu
     with pytest.raises(AttributeError, match=f"no attribute '{name}'; {re.escape(cure)}$"):
         getattr(op, name)
     with pytest.raises(ImportError, match=f"no attribute '{name}'; {re.escape(cure)}$"):
-        exec(f"from optipath import Source, {name}")
+        __import__("optipath", fromlist=["Source", name])
 
 
 def test_groups_of_names_are_found_and_hold_their_own_alone():
