@@ -15,12 +15,12 @@ from optipath.kernels.trigonometry import cosine, sine
 from optipath.kernels.vertex_chain import LONGEST, SHORTEST, PointsByAngles
 from optipath.materials.quantities import ANGLE, INCIDENCE, Quantity
 from optipath.values.arrays import (
+    ComparedByFields,
     array_of,
     check_broadcast,
     entries_of,
     locked,
     read_only,
-    same_fields,
 )
 from optipath.values.domains import Choice, Domain
 from optipath.values.jax_values import is_traced, namespace
@@ -37,7 +37,7 @@ _ANGLES = {"incidences": INCIDENCE, "turns": ANGLE}
 
 
 @dataclass(frozen=True, eq=False)
-class VerticesByAngles:
+class VerticesByAngles(ComparedByFields):
     """The vertices of a chain of specular reflections, given by angles.
 
     Legs are of length 1, and the middle one runs from the world's origin along its z. Next to
@@ -94,9 +94,6 @@ class VerticesByAngles:
         for field, domain in _ANGLES.items():
             for place, angle in enumerate(getattr(self, field)):
                 yield f"{name}.{field}[{place}]", angle, domain
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
 
 def vertices_from_angles(

@@ -11,7 +11,7 @@ from optipath.kernels.dispersion import index_of_square, sellmeier_square
 from optipath.materials.by_wavelength import drude_rotation
 from optipath.materials.formulas import MICROMETRES, Sellmeier
 from optipath.materials.material import Material
-from optipath.values.arrays import same_fields
+from optipath.values.arrays import ComparedByFields
 from optipath.values.curve import Curve
 from optipath.values.curve_value import CurveValue, curve_values
 
@@ -67,7 +67,7 @@ _SHORT = {"mgf2": "magnesium fluoride", "al2o3": "sapphire", "sio2": "quartz", "
 
 
 @dataclass(frozen=True, eq=False)
-class Crystal:
+class Crystal(ComparedByFields):
     """A uniaxial crystal, by its two indices of refraction.
 
     Parameters
@@ -147,9 +147,6 @@ class Crystal:
             return n_e - n_o
         curve = BirefringenceCurve(f"the birefringence of {self.label}", n_e.curve, n_o.curve)
         return curve_values(curve, n_e.depends_on[0])[0]
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
 
 def _is_plain(n: Any) -> bool:

@@ -12,7 +12,7 @@ from optipath.faults import Cure, Fault, shown
 from optipath.materials.database import parts_by_name, parts_of_file
 from optipath.materials.formulas import EVERYWHERE, Cauchy, DrudeLorentz, Sellmeier, TaucLorentz
 from optipath.materials.tables import Tabulated
-from optipath.values.arrays import as_argument, broadcast_fault, same, same_fields
+from optipath.values.arrays import ComparedByFields, as_argument, broadcast_fault, same
 from optipath.values.columns import read_columns
 from optipath.values.curve import Curve, span_text
 from optipath.values.curve_value import CurveValue, curve_at
@@ -80,7 +80,7 @@ PARTS = {"n": N, "k": K}
 
 
 @dataclass(frozen=True, eq=False)
-class Material:
+class Material(ComparedByFields):
     """A homogeneous medium, given by its complex index of refraction n + ik.
 
     Both may follow from the wavelength: `Material.tabulated`, `from_csv`, `sellmeier`, `cauchy`,
@@ -547,9 +547,6 @@ class Material:
             if alike:
                 return f"Material {shown(n.curve.label)}, {span_text(self.span)}"
         return f"Material(n={_written(n)}, k={_written(k)})"
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
 
 def _written(part: Any) -> str:

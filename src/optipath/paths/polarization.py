@@ -14,7 +14,7 @@ from optipath.engines.program import Evaluation
 from optipath.kernels.kernel import Kernel
 from optipath.plan.answers import only
 from optipath.plan.certificate import Certificate
-from optipath.values.arrays import same_fields
+from optipath.values.arrays import ComparedByFields
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -32,7 +32,7 @@ _ROUNDING, _ALIKE = 1e-12, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Polarization:
+class Polarization(ComparedByFields):
     """What polarisation does to the intensity at a detector, for each path of a batch.
 
     Attributes
@@ -56,9 +56,6 @@ class Polarization:
     scalar: npt.NDArray[Any]
     certificate: Certificate
     elements: Mapping[str, npt.NDArray[Any]]
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
     @property
     def difference(self) -> npt.NDArray[Any]:

@@ -12,7 +12,7 @@ from optipath.errors import ParameterError, ValueFault
 from optipath.kernels.carriers.intensities import Boosts, boosted, largest_error, ratio_bounds
 from optipath.kernels.primitives import NUMPY
 from optipath.light.polarization_state import underflows
-from optipath.values.arrays import check_broadcast, entries_of, same_fields
+from optipath.values.arrays import ComparedByFields, check_broadcast, entries_of
 from optipath.values.domains import Domain
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ _DIATTENUATION = Domain("diattenuation", minimum=-1.0, maximum=1.0)
 
 
 @dataclass(frozen=True, eq=False)
-class Certificate:
+class Certificate(ComparedByFields):
     """Bounds of the true intensity over that of the scalar model, for each path of a batch.
 
     Attributes
@@ -41,9 +41,6 @@ class Certificate:
     scalar: npt.NDArray[Any]
     lower: npt.NDArray[Any]
     upper: npt.NDArray[Any]
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
     @property
     def error(self) -> npt.NDArray[Any]:

@@ -14,7 +14,7 @@ from optipath.faults import did_you_mean
 from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.random_field import LARGEST, Pair, pair_of, random_field
-from optipath.values.arrays import Unchanging, as_argument, same_fields
+from optipath.values.arrays import ComparedByFields, Unchanging, as_argument
 from optipath.values.files import bytes_of, input_file
 from optipath.values.precision import Array, as_doubles
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class HeightField(Unchanging):
+class HeightField(Unchanging, ComparedByFields):
     """A rough surface: heights z over x and y, in cells of two flat triangles each.
 
     ``heights[i, j]`` is that at ``x = j dx``, ``y = i dy``; z points up. The diagonal of each
@@ -262,9 +262,7 @@ class HeightField(Unchanging):
         """
         return np.pad(self.heights, (0, 1), mode="wrap") if self.periodic else self.heights
 
-    __eq__ = same_fields
-
-    def __hash__(self) -> int:
+    def __hash__(self) -> int:  # type: ignore[override]
         return hash((self.heights.shape, self.size, self.periodic, self.alpha))
 
     def __repr__(self) -> str:

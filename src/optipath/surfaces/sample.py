@@ -16,7 +16,7 @@ from optipath.materials.quantities import YES_OR_NO
 from optipath.paths.files.schema import Faults
 from optipath.surfaces.height_field import HeightField
 from optipath.surfaces.random_field import cells_of
-from optipath.values.arrays import Unchanging, same_fields
+from optipath.values.arrays import ComparedByFields, Unchanging
 from optipath.values.curve_value import CurveValue
 from optipath.values.jax_values import is_traced
 from optipath.values.parameters import Parameter
@@ -38,7 +38,7 @@ _LEAST, _MOST = 1e-6, 100.0
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class SampleLayer:
+class SampleLayer(ComparedByFields):
     """An interface of a sample, and the medium below it."""
 
     index: float | complex | Material
@@ -69,9 +69,6 @@ class SampleLayer:
         if isinstance(rough, tuple) and rough[0] == rough[1]:
             return f"({self.index!r}, {rough[0]!r})"
         return f"({self.index!r}, {rough!r})"
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
 
 def layers_of(argument: Any, faults: Faults) -> tuple[SampleLayer, ...]:
@@ -223,7 +220,7 @@ _WIDTH = 80.0
 
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
-class Sample(Unchanging):
+class Sample(Unchanging, ComparedByFields):
     """Rough or flat interfaces one below the other, and the media between them.
 
     Heights over x and y, lengths of the fields and wavelengths are no part of each other: light
@@ -431,6 +428,3 @@ class Sample(Unchanging):
     def __getstate__(self) -> dict[str, Any]:
         # Random fields are drawn again, with the same bits.
         return {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]

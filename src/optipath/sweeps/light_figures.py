@@ -12,7 +12,7 @@ from optipath.errors import AngleWarning, ParameterError
 from optipath.faults import listed, unknown
 from optipath.light.polarization_state import length
 from optipath.light.quantities import DERIVED, QUANTITIES, Shares
-from optipath.values.arrays import Unchanging, locked, same_fields
+from optipath.values.arrays import ComparedByFields, Unchanging, locked
 from optipath.values.units import dimension_of, displayed, format_range
 
 if TYPE_CHECKING:
@@ -92,7 +92,7 @@ def _at_least(noise: Any, *components: Any) -> Any:
 
 
 @dataclass(frozen=True, eq=False)
-class UncertainValue(Unchanging):
+class UncertainValue(Unchanging, ComparedByFields):
     """A value of a parameter, or a batch of them, with its standard uncertainty; angles in rad."""
 
     name: str
@@ -106,9 +106,6 @@ class UncertainValue(Unchanging):
         """Keep copies, which nobody can change."""
         for name in ("value", "sigma"):
             object.__setattr__(self, name, locked(np.array(getattr(self, name))))
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
     def allows(self, numbers: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
         """Return which numbers are within the range."""

@@ -14,13 +14,13 @@ from optipath.errors import AngleWarning, OptipathError, ParameterError, UnitErr
 from optipath.faults import Cure, shown
 from optipath.values.arrays import (
     MOST_AXES,
+    ComparedByFields,
     Unchanging,
     as_argument,
     broadcast_fault,
     joint_shape,
     numbers_for,
     refuse_too_large,
-    same_fields,
 )
 from optipath.values.jax_values import is_jax, is_traced, namespace
 from optipath.values.precision import as_doubles, doubles, real_number, rounding_of
@@ -36,7 +36,7 @@ _ANGLE = 8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class CosSin(Unchanging):
+class CosSin(Unchanging, ComparedByFields):
     """An angle by its cosine and sine, as scenes in space have it.
 
     May be given for any angle when a plan runs: next to the normal and at grazing incidence it
@@ -105,9 +105,6 @@ class CosSin(Unchanging):
             raise ParameterError(
                 f"cosine and sine of {what} belong to no angle; divide both by hypot(cos, sin)"
             )
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         return f"CosSin({self.cos!r}, {self.sin!r})"

@@ -8,7 +8,7 @@ from typing import Any
 
 from optipath.errors import ParameterError
 from optipath.faults import shown
-from optipath.values.arrays import array_of, read_only, same_fields
+from optipath.values.arrays import ComparedByFields, array_of, read_only
 from optipath.values.precision import as_doubles
 
 ALL = "all"
@@ -16,7 +16,7 @@ ALL = "all"
 
 
 @dataclass(frozen=True, eq=False)
-class Case:
+class Case(ComparedByFields):
     """A named set of values for the parameters of a path.
 
     Attributes
@@ -54,9 +54,6 @@ class Case:
         published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "published", published)
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
 
 def name_faults(name: str) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from optipath.kernels.primitives import NUMPY, made
 from optipath.kernels.trigonometry import cosine, sine
-from optipath.values.arrays import same, same_fields
+from optipath.values.arrays import ComparedByFields, same
 from optipath.values.jax_values import check_known, is_traced
 from optipath.values.parameters import Parameter
 from optipath.values.precision import affine, doubles
@@ -188,7 +188,7 @@ def operand_of(argument: Any) -> Operand:
 
 
 @dataclass(eq=False, slots=True)
-class Operation:
+class Operation(ComparedByFields):
     """A kernel and the values it is given.
 
     Attributes
@@ -253,9 +253,6 @@ class Operation:
         inner = {id(a.operation): a.operation for a in self.arguments if isinstance(a, ResultOf)}
         behind = [operand for operation in inner.values() for operand in operation.operands()]
         return behind + [operand_of(a) for a in self.arguments if not isinstance(a, ResultOf)]
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
 
 @dataclass(frozen=True, slots=True)

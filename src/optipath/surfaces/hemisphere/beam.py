@@ -15,7 +15,7 @@ from optipath.surfaces.ends import turned_directions
 from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.beam import BLOCK, PORTION, walked_in_order
 from optipath.surfaces.walk.code import walk_code
-from optipath.values.arrays import same_fields
+from optipath.values.arrays import ComparedByFields
 from optipath.values.precision import real_number
 
 if TYPE_CHECKING:
@@ -51,16 +51,13 @@ NUMBERS = {"both": (*_MATRIX, "scalar"), "polarized": _MATRIX, "scalar": ("scala
 
 
 @dataclass(frozen=True, eq=False)
-class SensedBeam:
+class SensedBeam(ComparedByFields):
     """Photons, and how they are seen; chunks of them do not depend on each other."""
 
     beam: PhotonBeam
     sensor: Sensor
     polarized: Polarized
     events: int | None
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
     @property
     def sides(self) -> tuple[str, ...]:

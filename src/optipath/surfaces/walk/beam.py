@@ -23,7 +23,7 @@ from optipath.surfaces.sample import Sample
 from optipath.surfaces.walk import layout
 from optipath.surfaces.walk.code import walk_code
 from optipath.surfaces.walk.meshes import meshes_of
-from optipath.values.arrays import same_fields
+from optipath.values.arrays import ComparedByFields
 from optipath.values.domains import StokesDomain
 from optipath.values.precision import whole_number
 
@@ -46,7 +46,7 @@ TURN = 1 << 19
 
 
 @dataclass(frozen=True, eq=False)
-class PhotonBeam:
+class PhotonBeam(ComparedByFields):
     """What is needed to walk any block of photons; block b has the seed of `SeedSequence` child b.
 
     Surfaces take turns, each for a `PORTION` of photons, and are replaced after a `TURN` of them.
@@ -60,9 +60,6 @@ class PhotonBeam:
     states: tuple[tuple[float, float, float, float], ...]
     seed: int
     most_events: int
-
-    __eq__ = same_fields
-    __hash__ = None  # type: ignore[assignment]
 
     @property
     def incidence(self) -> float:
