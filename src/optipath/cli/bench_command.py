@@ -13,7 +13,6 @@ from optipath.cli.arguments import NEW_FILE, OLD_FILE, check_place, write
 from optipath.cli.console import JSON, PlainConsole, cell, headed, progress_bar, say, say_json
 from optipath.cli.options import StrictCommand
 from optipath.cli.preset_command import PresetGroup, is_without_preset
-from optipath.paths.files.presets import beside, bound_preset
 from optipath.values.files import check_form, text_of
 from optipath.values.units import dimension_of
 
@@ -112,16 +111,9 @@ def _table(path: str, rates: Iterable[Rates]) -> Table:
 
 def _opened(chosen: Chosen) -> PathGraph:
     """Return the path with what was given, the angles of a case left open."""
-    path, case = chosen.opened, chosen.case
-    if case not in path.cases:
-        return chosen.path()  # None is given, or one that is refused.
-    known = path.parameters
-    stored = {
-        name: value
-        for name, value in path.cases[case].values.items()
-        if dimension_of(known[name].unit) != "angle" or known[name].optional
-    }
-    return bound_preset(path, chosen.preset, None, beside(chosen.opened, stored, chosen.values))
+    known = chosen.opened.parameters.items()
+    angles = [name for name, one in known if dimension_of(one.unit) == "angle" and not one.optional]
+    return chosen.path(others=angles)
 
 
 _OPTIONS = (ELEMENTS, LARGEST, LONG, ENGINE, THREADS, OUT, JSON)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import stat
 from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Never
@@ -41,21 +40,20 @@ def preset_names() -> list[str]:
 def preset_files() -> tuple[dict[str, Path], list[Path]]:
     """Return the files of presets by name, the library's first, and files that no name finds."""
     files, unnamed = schema.files_in(schema.presets_folder()), []
-    for place, folder in _own_folders().items():
-        for name, file in schema.files_in(folder).items() if place != folder else ():
+    for folder in _own_folders():
+        for name, file in schema.files_in(folder).items():
             if not schema.is_name(name) or files.setdefault(name, file) != file:
                 unnamed.append(file)
     return files, unnamed
 
 
-def _own_folders() -> dict[object, Path]:
-    """Return ``./presets`` and the folders of ``OPTIPATH_PRESETS`` by place, none of them twice."""
+def _own_folders() -> list[Path]:
+    """Return ``./presets`` and the folders of ``OPTIPATH_PRESETS``, none of them twice."""
     names = [str(_HERE), *os.environ.get("OPTIPATH_PRESETS", "").split(os.pathsep)]
-    folders: dict[object, Path] = {}
+    places: dict[object, Path] = {_place(schema.presets_folder()): _HERE}
     for folder in map(Path, filter(None, names)):
-        folders.setdefault(_place(folder), folder)
-    folders.pop(_place(schema.presets_folder()), None)
-    return folders
+        places.setdefault(_place(folder), folder)
+    return [*places.values()][1:]
 
 
 def _place(folder: Path) -> object:
@@ -64,7 +62,7 @@ def _place(folder: Path) -> object:
         status = folder.stat()
     except OSError:
         return folder
-    return (status.st_dev, status.st_ino) if stat.S_ISDIR(status.st_mode) else folder
+    return status.st_dev, status.st_ino
 
 
 def preset_descriptions(files: Mapping[str, Path] | None = None) -> dict[str, str]:
@@ -183,9 +181,9 @@ def _values_of(path: PathGraph, preset: str | PathLike[str], case: str | int) ->
 def locate(preset: str | PathLike[str]) -> Path:
     """Return the file of a preset, which need not exist if a path is given."""
     own = [
-        f"'{folder}'{' (no folder)' if place == folder else ''}"
-        for place, folder in _own_folders().items()
-        if place != _HERE
+        f"'{folder}'{'' if folder.is_dir() else ' (no folder)'}"
+        for folder in _own_folders()
+        if folder.is_dir() or folder != _HERE
     ]
     where = f", also in {', '.join(own)}" if own else ""
     return schema.file_of(preset, "preset", preset_files()[0], "`optipath presets`", where)
