@@ -647,3 +647,65 @@ def test_a_parameter_is_bound_in_all_elements_that_are_equal():
     path = path >> op.Detector()
     assert path.bind(a=0.1).trace() == path.trace(a=0.1)
     np.testing.assert_allclose(path.trace(a=0.1).stokes[1], np.cos(0.8) / 16, rtol=1e-15)
+
+
+def lengths(path):
+    return [about.get("length") for *_, about in path.edges(data=True)]
+
+
+def test_lengths_of_links_stay_in_all_that_is_made_of_a_path(tmp_path):
+    path = wired({"lamp": op.Source(op.Parameter("s", 1.0)), "split": op.BeamSplitter()}, "")
+    path.add("eye", op.Detector())
+    path.add("spare", op.Detector())
+    path.connect("lamp", "split", length="20 cm")
+    path.connect("split.reflected", "eye", azimuth="30 deg", length=0.1 + 0.2)
+    path.connect("split.transmitted", "spare", tap=True)
+    known = [0.2, 0.1 + 0.2, None]
+    for other in (path.bind(s=2.0), read_back(path, tmp_path), path.reading("intensity")):
+        assert lengths(other) == known
+    assert read_back(path, tmp_path) == path
+    assert op.PathGraph.from_networkx(path.to_networkx()) == path
+    chain = wired({"lamp": op.Source(), "film": op.Polarizer(), "eye": op.Detector()}, "")
+    chain.connect("lamp", "film", length=1)
+    chain.connect("film", "eye", length="2 m")
+    assert lengths(chain.reversed()) == [2.0, 1.0]
+    assert lengths(op.PathGraph() >> chain) == [1.0, 2.0]
+
+
+def test_what_is_inserted_stands_at_the_port_that_is_named_and_what_is_removed_leaves_the_sum():
+    path = wired({"lamp": op.Source(), "film": op.Polarizer(), "eye": op.Detector()}, "")
+    path.connect("lamp", "film", length=1.0)
+    path.connect("film", "eye", length=2.0)
+    path.insert("behind", op.Rotator(0.1), behind="film.out")
+    path.insert("before", op.Rotator(0.1), before="eye")
+    found = {(start, end): one for start, end, one in path.edges(data="length")}
+    assert found == {
+        ("lamp", "film"): 1.0,
+        ("film", "behind"): 0.0,
+        ("behind", "before"): 2.0,
+        ("before", "eye"): 0.0,
+    }
+    for name in ("film", "before", "behind"):
+        path.remove(name)
+    assert lengths(path) == [3.0]
+    path.insert("film", op.Polarizer(), behind="lamp")
+    path.disconnect("film")
+    path.connect("film", "eye")
+    path.remove("film")
+    assert lengths(path) == [None]
+
+
+@rows(
+    "length, told",
+    [
+        (-1.0, r"link 'lamp -> eye' length is -1000 mm; give a real length of 0 mm or more"),
+        ("3 deg", r"link 'lamp -> eye' length: '3 deg' is no length; use one of nm, um"),
+        (op.Parameter("d"), r"link 'lamp -> eye' length cannot be a parameter"),
+        (np.inf, r"link 'lamp -> eye' length is inf; give a finite length"),
+    ],
+)
+def test_lengths_that_cannot_be_are_refused_where_they_are_said(length, told):
+    path = wired({"lamp": op.Source(), "eye": op.Detector()}, "")
+    with pytest.raises(op.OptipathError, match=told):
+        path.connect("lamp", "eye", length=length)
+    assert not path.edges

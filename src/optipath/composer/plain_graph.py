@@ -42,10 +42,11 @@ class _KnownLength(Domain):
     takes_parameters = False
 
 
-_VALUES = {
+LINK_VALUES = {
     "azimuth": ANGLE,
     "length": _KnownLength("length", "length", minimum=0.0, own_unit="mm"),
 }
+"""The numbers that a link may have."""
 
 
 def completed(graph: Any) -> nx.MultiDiGraph:
@@ -219,18 +220,24 @@ def _others(
     named = f"link '{link_text(link)}'" if all(link[2]) else _text(edge)
     faults += _misspelt(_text(edge), about, _LINK)
     result = {name: value for name, value in about.items() if name not in _LINK}
-    for name, domain in _VALUES.items():
+    for name in LINK_VALUES:
         value = about.get(name)
         if value is not None:
             with OptipathError.collecting(faults):
-                value = stored_value(f"{named} {name}", value, domain)
-                Use(f"{named} {name}", value, domain).check()
+                value = link_value(named, name, value)
         if value is not None or name == "azimuth":
             result[name] = value
     tap = about.get("tap")
     if not isinstance(tap, bool | np.bool_ | None):
         faults.append(f"{named} tap must be True or False, not {shown(tap)}")
     return result | {"tap": isinstance(tap, bool | np.bool_) and bool(tap)}
+
+
+def link_value(owner: str, name: str, value: Any) -> Any:
+    """Return a number of a link as it is stored, or raise with what is wrong with it."""
+    value = stored_value(f"{owner} {name}", value, LINK_VALUES[name])
+    Use(f"{owner} {name}", value, LINK_VALUES[name]).check()
+    return value
 
 
 def _text(edge: list[Any]) -> str:

@@ -16,16 +16,14 @@ from optipath.composer.placement import (
     placement_faults,
     turn_text,
 )
-from optipath.composer.plain_graph import check_element, frames_faults
+from optipath.composer.plain_graph import check_element, frames_faults, link_value
 from optipath.composer.wiring import LOOPS, Wiring, link_text
 from optipath.elements.element import Element, natural_of
 from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import OptipathError, PathError
 from optipath.faults import did_you_mean, listed, shown, there_are
-from optipath.materials.quantities import ANGLE
 from optipath.values.arrays import changed, joint_shape, read_only, same
 from optipath.values.parameters import Parameter
-from optipath.values.use import stored_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable, Sequence
@@ -335,15 +333,17 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
     graph.add_node(name, element=element, frames=dict(frames))
 
 
-def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap: Any) -> None:
+def connect(
+    graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap: Any, length: Any
+) -> None:
     """Add a link, as `PathGraph.connect` does."""
     faults = [] if isinstance(tap, bool) else [f"tap must be True or False, not {shown(tap)}"]
     link = _link_of(graph, leaves, enters, faults)
     if graph.has_edge(*link):
         raise PathError(f"link '{link_text(link)}' is there already; remove the second one")
-    if azimuth is not None:
-        azimuth = stored_value(f"link '{leaves} -> {enters}' azimuth", azimuth, ANGLE)
-    graph.add_edge(*link, azimuth=azimuth, tap=tap)
+    values, named = {"azimuth": azimuth, "length": length}, f"link '{leaves} -> {enters}'"
+    said = {n: link_value(named, n, one) for n, one in values.items() if one is not None}
+    graph.add_edge(*link, **{"azimuth": None, **said, "tap": tap})
 
 
 def disconnect(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> None:
@@ -403,10 +403,13 @@ def insert(
         # What stands behind it stays as it was turned.
         turn_more(graph, link, -_own_turn(element))
     about = graph.edges[link]
-    azimuth, tap = about["azimuth"], about["tap"]
+    first, second = {"azimuth": None, "tap": about["tap"]}, {**about, "tap": False}
+    if "length" in about:  # It stands at the port that is named.
+        here, there = (first, second) if before is None else (second, first)
+        here["length"], there["length"] = 0.0, about["length"]
     graph.remove_edge(*link)
-    graph.add_edge(start, name, key=(leaves, enters), azimuth=None, tap=tap)
-    graph.add_edge(name, end, key=(passes, arrives), azimuth=azimuth, tap=False)
+    graph.add_edges_from([(start, name, (leaves, enters), first)])
+    graph.add_edges_from([(name, end, (passes, arrives), second)])
 
 
 def remove(graph: nx.MultiDiGraph, name: Any) -> None:
@@ -482,9 +485,13 @@ def _close(graph: nx.MultiDiGraph, name: str, before: list[Link], behind: list[L
         link = link_text((start, end, (leaves, arrives)))
         raise PathError(f"link '{link}' is there already; disconnect it first")
     turn_more(graph, behind[0], azimuth_of(Wiring(graph), before[0]))
-    about = graph.edges[behind[0]]
-    tap = graph.edges[before[0]]["tap"] or about["tap"]
-    graph.add_edge(start, end, key=(leaves, arrives), azimuth=about["azimuth"], tap=tap)
+    first, second = graph.edges[before[0]], graph.edges[behind[0]]
+    about = {**first, **second, "tap": first["tap"] or second["tap"]}
+    if "length" in first.keys() & second.keys():
+        about["length"] = _sum(first["length"], second["length"])
+    else:
+        about.pop("length", None)
+    graph.add_edges_from([(start, end, (leaves, arrives), about)])
 
 
 def _listed(links: Iterable[Link]) -> str:

@@ -288,7 +288,15 @@ class PathGraph(Chainable):
         editing.add(self._changing(), name, element, frames)
         return Node(self, name)
 
-    def connect(self, leaves: str, enters: str, azimuth: Any = None, *, tap: bool = False) -> None:
+    def connect(
+        self,
+        leaves: str,
+        enters: str,
+        azimuth: Any = None,
+        *,
+        tap: bool = False,
+        length: float | str | None = None,
+    ) -> None:
         """Link an out-port to an in-port.
 
         Parameters
@@ -301,13 +309,15 @@ class PathGraph(Chainable):
         tap : bool, optional
             Whether the link reads all the light of the out-port and takes nothing of it. An
             out-port feeds one link, and any number of taps that lead to ends of their own.
+        length : float or str, optional
+            How long the link is, in meters, which changes no light yet.
 
         Raises
         ------
         PathError
             If a port does not exist or runs the other way, or the link is there already.
         """
-        editing.connect(self._changing(), leaves, enters, azimuth, tap)
+        editing.connect(self._changing(), leaves, enters, azimuth, tap, length)
 
     def disconnect(self, leaves: str, enters: str | None = None) -> None:
         """Take a link out.

@@ -52,7 +52,8 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
     for link in [*graph.edges(keys=True)][::-1]:
         start, end, (leaves, enters) = link
         key = turning.port(end, enters), turning.port(start, leaves)
-        result.add_edge(end, start, key=key, azimuth=turning.azimuth(link), tap=False)
+        about = {**graph.edges[link], "azimuth": turning.azimuth(link), "tap": False}
+        result.add_edges_from([(end, start, key, about)])
     return result
 
 

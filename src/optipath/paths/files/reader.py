@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.composer.composer import checked
+from optipath.composer.plain_graph import LINK_VALUES
 from optipath.composer.wiring import LOOPS
 from optipath.elements.known_elements import element_class
 from optipath.errors import OptipathError, PathError, PresetError
 from optipath.faults import Fault, did_you_mean, shown
 from optipath.kernels.kernel import called
 from optipath.light.frame import Frame
-from optipath.materials.quantities import ANGLE
 from optipath.paths.files import schema
 from optipath.paths.files.schema import FORMAT, Faults, checked_table, each_key, parsed
 from optipath.paths.files.values import decode, decode_argument, text_or_number, wavelength_names
@@ -176,11 +176,11 @@ def _frame(port: str, axes: Any) -> Frame:
 
 def _connect(path: PathGraph, table: Any, parameters: Mapping[str, Parameter]) -> None:
     checked_table(table, schema.LINK, ("from", "to"))
-    faults, azimuth = Faults(), None
-    if "azimuth" in table:
-        azimuth = faults.attempt(".azimuth", decode, table["azimuth"], ANGLE, parameters)
-    tap = table.get("tap", False)
-    faults.attempt("", path.connect, table["from"], table["to"], azimuth, tap=tap)
+    faults, keys = Faults(), {"tap": table.get("tap", False)}
+    for name, domain in LINK_VALUES.items():
+        if name in table:
+            keys[name] = faults.attempt(f".{name}", decode, table[name], domain, parameters)
+    faults.attempt("", path.connect, table["from"], table["to"], **keys)
     faults.refuse()
 
 

@@ -23,7 +23,7 @@ TOP = {"format": int, "description": str, "parameters": dict, "elements": dict, 
 TOP |= {"cases": dict, "choices": dict, "loops": str}
 PARAMETER = {"default": object, "unit": str, "range": list, "help": str, "words": dict}
 PARAMETER |= {"optional": bool, "bound": bool}
-LINK = {"from": str, "to": str, "azimuth": object, "tap": bool}
+LINK = {"from": str, "to": str, "azimuth": object, "length": object, "tap": bool}
 CHOICE = {"element": str, "behind": dict, "help": str}
 CASE = {"values": dict, "published": dict, "note": str}
 

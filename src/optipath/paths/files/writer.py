@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.path_values import Values
+from optipath.composer.plain_graph import LINK_VALUES
 from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError
 from optipath.faults import did_you_mean
 from optipath.materials.index_domains import INDEX, IndexDomain
-from optipath.materials.quantities import ANGLE
 from optipath.paths.binding import choice_faults
 from optipath.paths.files.schema import FORMAT, Faults
 from optipath.paths.files.values import encode, entry_domain, wavelength_names
@@ -58,8 +58,8 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
             tables.append(toml_lines(f"[elements.{_key(name)}]", described))
     for (start, end, (leaves, enters)), about in graph.edges.items():
         link: dict[str, Any] = {"from": f"{start}.{leaves}", "to": f"{end}.{enters}"}
-        if about["azimuth"] is not None:
-            link["azimuth"] = encode(about["azimuth"], ANGLE.unit)
+        said = {name: about[name] for name in LINK_VALUES if about.get(name) is not None}
+        link |= {name: encode(one, LINK_VALUES[name].unit) for name, one in said.items()}
         if about["tap"]:
             link["tap"] = True
         tables.append(toml_lines("[[links]]", link))
