@@ -19,7 +19,6 @@ from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.wiring import (
     KEEPABLE,
     LOOPS,
-    Wiring,
     among,
     link_text,
     sharing_faults,
@@ -38,7 +37,7 @@ from optipath.values.precision import precision_name, whole_number
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.composer.wiring import Keep, Loops
+    from optipath.composer.wiring import Keep, Loops, Wiring
     from optipath.engines.choice import EngineName
     from optipath.engines.draft import Draft
     from optipath.engines.program import Model, Reduction, Tolerance
@@ -52,8 +51,7 @@ def checked(
     """Return the values, wiring and media of a path, or raise with all that is wrong with it."""
     graph, faults = with_followed(values.graph) if values.has_followers else (values.graph, [])
     values = values if graph is values.graph else Values(graph)
-    wiring = Wiring(graph, loops, keep)
-    wiring.alike = values.alike
+    wiring = values.wiring.changed(loops, keep)
     media = Media(wiring)
     # In a cycle by mistake, light meets media and misses ends in consequence.
     cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring))

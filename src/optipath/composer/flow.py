@@ -6,6 +6,7 @@ Components of light are bits of a mask: S0 is 1, S1 is 2, S2 is 4 and S3 is 8.
 from __future__ import annotations
 
 from collections import Counter
+from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache, reduce
 from math import isfinite
@@ -16,11 +17,11 @@ import numpy as np
 
 from optipath.engines.draft import Draft
 from optipath.kernels.kernel import Entry
-from optipath.kernels.primitives import FLOAT, is_below_rounding
+from optipath.kernels.primitives import FLOAT, FLOAT_ARRAYS, is_below_rounding
 from optipath.values.operands import Operand, ResultOf
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterator
+    from collections.abc import Hashable, Iterable, Iterator, Sequence
     from collections.abc import Set as AbstractSet
 
     from optipath.engines.draft import DraftStep
@@ -30,33 +31,6 @@ if TYPE_CHECKING:
     from optipath.values.operands import Operation
 
 
-class Item:
-    """A step that does something to one light."""
-
-    __slots__ = ("action", "constant", "kernel", "label", "once", "operation", "presence")
-
-    def __init__(
-        self,
-        label: str,
-        operation: Operation,
-        presence: Operand | None = None,
-        *,
-        once: bool = True,
-    ) -> None:
-        self.label = label
-        self.operation = operation
-        self.presence = presence
-        self.once = once  # In no loop.
-        self.kernel: Any = operation.kernel
-        # What is known of it, once that was looked up.
-        self.action: Any = None
-        self.constant: Any = False
-
-    def become(self, operation: Operation) -> None:
-        """Let it do something else."""
-        self.__init__(self.label, operation, self.presence, once=self.once)  # type: ignore[misc]
-
-
 class LightNode:
     """A light: of a source, a sum of others (which has a label), or another one behind items.
 
@@ -64,23 +38,25 @@ class LightNode:
     """
 
     __slots__ = (
-        "inputs", "is_junction", "items", "label", "light", "needed", "placed", "reached",
-        "reads", "source", "users",
+        "inputs", "is_junction", "items", "label", "light", "needed", "once", "placed",
+        "reached", "reads", "source", "users",
     )  # fmt: skip
 
     def __init__(
         self,
         inputs: list[LightNode],
-        items: list[Item],
+        items: list[DraftStep],
         label: str = "",
-        source: Item | None = None,
+        source: DraftStep | None = None,
         *,
+        once: bool = True,
         is_junction: bool = False,
     ) -> None:
         self.inputs = inputs
         self.items = items
         self.label = label
         self.source = source
+        self.once = once  # In no loop.
         self.is_junction = is_junction
         self.placed = False
         self.users: list[LightNode] = []
@@ -100,6 +76,8 @@ class Flow:
     def __init__(self, draft: Draft) -> None:
         self.draft = draft
         self.facts = Facts(draft)
+        # What reductions know of operations, each kept with what is known of it.
+        self.constants: dict[int, tuple[Any, Operation]] = {}
         self.is_looked_at = False  # Whether the masks of all nodes are as they should be.
         # The nodes in the order in which their lights are made; junctions, where a loop ends.
         self.order: list[LightNode | tuple[LightNode, ...]] = []
@@ -197,15 +175,14 @@ class Flow:
         if step.operation is None:
             self._begin(LightNode([self._made(light) for light in step.inputs], [], step.label))
             return
-        item = Item(step.label, step.operation, step.presence, once=once)
         if not step.inputs:
-            self._begin(LightNode([], [], source=item))
+            self._begin(LightNode([], [], source=step))
             return
         (before,) = step.inputs
         node, _ = self.places[before]
         if self._uses[before] > 1 or not node.items:
-            node = LightNode([self._made(before)], [])
-        node.items.append(item)
+            node = LightNode([self._made(before)], [], once=once)
+        node.items.append(step)
         self.places.append((node, len(node.items)))
 
     def _made(self, light: int) -> LightNode:
@@ -225,10 +202,10 @@ COMPONENTS = tuple(
 """The components in each mask; an intensity is always alive."""
 
 
-def find_alive(flow: Flow, doubtful: AbstractSet[Item] = frozenset()) -> None:
+def find_alive(flow: Flow, doubtful: AbstractSet[int] = frozenset()) -> None:
     """Find what of each light is reached from the sources, and needed by what is read.
 
-    Of a doubtful item, which may be taken out, light that arrives reaches on as well.
+    Of doubtful items (by their id), which may be taken out, light that arrives reaches on as well.
     """
     nodes, facts, flow.is_looked_at = list(flow.nodes), flow.facts, not doubtful
     for node in nodes:
@@ -247,7 +224,7 @@ def find_alive(flow: Flow, doubtful: AbstractSet[Item] = frozenset()) -> None:
             last |= each.reached[-1]
         results = [last]
         for item in node.items:
-            last = item.action.forward[last] | (last if doubtful and item in doubtful else 0)
+            last = item.action.forward[last] | (last if doubtful and id(item) in doubtful else 0)
             results.append(last)
         node.reached = results
         if last != before[-1]:
@@ -267,10 +244,10 @@ def find_alive(flow: Flow, doubtful: AbstractSet[Item] = frozenset()) -> None:
             waiting |= dict.fromkeys(node.inputs)
 
 
-def idle_items(flow: Flow) -> set[Item]:
-    """Return the items that each leave everything as it is that is alive."""
+def idle_items(flow: Flow) -> set[int]:
+    """Return the items (by their id) that each leave everything as it is that is alive."""
     return {
-        item
+        id(item)
         for node in flow.chains
         for item, before, behind in zip(node.items, node.reached, node.needed[1:], strict=False)
         if not item.action.changes[behind | 1] & before
@@ -313,6 +290,8 @@ def _mask(signs: Any) -> int:
     return sum([bool(sign) << place for place, sign in enumerate(signs)])
 
 
+_FLOATS = frozenset({float})
+
 _zero_or_one = dict[Entry, Entry]({0.0: 0.0, 1.0: 1.0}).get
 """Which number it is seldom matters, but for these two."""
 
@@ -334,31 +313,50 @@ class Facts:
         """Return the numbers that an operation comes to; None if these are not known."""
         known = self._outcomes.get(id(operation))
         if known is None:
-            known = operation, None if self._closed else self._outcome(operation)
-            self._outcomes[id(operation)] = known
+            numbers = None if self._closed else self._numbers(operation)
+            outcome = None if numbers is None else _evaluated(operation.kernel, numbers)
+            known = self._outcomes[id(operation)] = operation, outcome
         return known[1]
 
-    def _outcome(self, operation: Operation) -> tuple[float, ...] | None:
+    def look_up(self, operations: Iterable[Operation]) -> None:
+        """Find the outcomes of several operations, those of one kernel together."""
+        alike: dict[int, list[tuple[Operation, Sequence[float]]]] = {}
+        every = {id(operation): operation for operation in operations}
+        for operation in [one for at, one in every.items() if at not in self._outcomes]:
+            numbers = None if self._closed else self._numbers(operation)
+            if numbers is None:
+                self._outcomes[id(operation)] = operation, None
+            else:
+                alike.setdefault(id(operation.kernel), []).append((operation, numbers))
+        for several in alike.values():
+            rows = [numbers for _, numbers in several]
+            outcomes = _evaluated_together(several[0][0].kernel, rows)
+            for (operation, _), outcome in zip(several, outcomes, strict=True):
+                self._outcomes[id(operation)] = operation, outcome
+
+    def _numbers(self, operation: Operation) -> Sequence[float] | None:
+        """Return the numbers that an operation is given, if all are known."""
+        arguments: Any = operation.arguments
+        if _FLOATS.issuperset(map(type, arguments)):
+            return tuple(arguments)
         numbers: list[float] = []
-        for argument in operation.arguments:
+        for argument in arguments:
             if type(argument) is ResultOf:
                 results = self.outcome(argument.operation)
                 number = None if results is None else results[argument.place]
-            elif type(argument.value) is float and argument.part == "value":
-                number = argument.value
             else:
                 number = number_of(argument)
             if number is None:
                 return None
             numbers.append(number)
-        return _evaluated(operation.kernel, numbers)
+        return numbers
 
-    def action(self, item: Item) -> Action:
-        """Return what an item makes of components."""
+    def action(self, item: DraftStep) -> Action:
+        """Return what a step makes of components."""
         operation, may_be_absent = item.operation, item.presence is not None
         known = self._actions.get((id(operation), may_be_absent))
         if known is None:
-            kernel = item.kernel
+            kernel = operation.kernel
             if (outcome := self.outcome(operation)) is None:
                 action = _of_kernel(kernel, self._signs(operation), may_be_absent)
             else:
@@ -433,13 +431,31 @@ def _evaluated(kernel: Any, numbers: Any) -> tuple[float, ...] | None:
         return None
 
 
+_MANY = 16
+"""From how many on operations are evaluated together."""
+
+
+def _evaluated_together(kernel: Any, rows: list[Sequence[float]]) -> list[tuple[float, ...] | None]:
+    """Return what a kernel makes of each row of numbers, with the bits of floats."""
+    if len(rows) >= _MANY and kernel.of_library:
+        with suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
+            columns = np.array(rows).T
+            results = kernel.made_for(FLOAT_ARRAYS)(*columns)
+            numbers = np.array([np.broadcast_to(each, len(rows)) for each in results])
+            if np.isfinite(numbers).all():
+                return [*zip(*numbers.tolist(), strict=True)]
+    return [_evaluated(kernel, row) for row in rows]
+
+
 @lru_cache(256)
 def _of_floats(kernel: Kernel) -> KernelFunction:
     return kernel.made_for(FLOAT)
 
 
-def number_of(operand: Operand) -> float | None:
-    """Return the one real number that an operand is known to be; None for all else."""
+def number_of(operand: Any) -> float | None:
+    """Return the one real number that an argument is known to be; None for all else."""
+    if type(operand) is float:
+        return operand
     value, part = operand.value, operand.part
     if type(value) is float:
         if part in ("value", "real"):

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 
 _FEW = 8
+_FLOATS = frozenset({float})
 
 _UNIT = Frame()
 
@@ -64,6 +65,7 @@ class _Lowering:
     def __init__(self, wiring: Wiring, method: str) -> None:
         self.wiring = wiring
         self._links_to, self._couplings = wiring.links_to, wiring.couplings
+        self._turning = wiring.turning
         self.method = method
         self.draft = Draft()
         self.lights: dict[Port, int] = {}
@@ -110,12 +112,12 @@ class _Lowering:
         # The junctions come first.
         for port in stretch.ports[len(outside) :]:
             links = self._links_to.get(port, ())
-            if len(links) == 1 and not self.wiring.may_turn(links[0]):
-                self.lights[port] = self.lights[links[0][0], links[0][2][0]]
-                continue
-            lights = self._arriving(port)
-            only = len(lights) == 1
-            self.lights[port] = lights[0] if only else self.draft.sum(".".join(port), lights)
+            if len(links) == 1:
+                self.lights[port] = self._along(links[0])
+            elif len(lights := self._arriving(port)) == 1:
+                self.lights[port] = lights[0]
+            else:
+                self.lights[port] = self.draft.sum(".".join(port), lights)
         if outside:
             within, sums = set(stretch.ports), dict[int, list[int]]()
             for junction, lights in outside.items():
@@ -138,8 +140,8 @@ class _Lowering:
     def _along(self, link: Link) -> int:
         """Return the light of a link in the frame that it enters."""
         start, _, (leaves, _) = link
-        light, turn = self.lights[start, leaves], alignment(self.wiring, link)
-        if turn is None:
+        light = self.lights[start, leaves]
+        if link not in self._turning or (turn := alignment(self.wiring, link)) is None:
             return light
         return self.draft.step(link_text(link), (light,), self._lowered(turn))
 
@@ -151,7 +153,7 @@ class _Lowering:
             known = self._ways[id(coupling)] = _presence(coupling.operations), operations, coupling
         presence, operations, _ = known
         if coupling.enters is None:
-            light = self.draft.step(label, (), operations[0], about=(True, 0))
+            light = self.draft.step(label, (), operations[0], bounces=0)
             self.sources[name] = (light, self._frame_behind(name, coupling.leaves))
             return light
         light = self.lights[name, coupling.enters]
@@ -162,17 +164,21 @@ class _Lowering:
                 return light
         last = len(operations) - 1
         for place, operation in enumerate(operations):
-            about = True, int(coupling.reflects and place == last)
-            light = self.draft.step(label, (light,), operation, presence, about)
+            bounces = int(coupling.reflects and place == last)
+            light = self.draft.step(label, (light,), operation, presence, bounces)
         return light
 
     def _lowered(self, operation: Operation) -> Operation:
-        """Return an operation by the method, with operands and results of such as arguments."""
+        """Return an operation by the method, with floats, operands and results as arguments."""
+        kernel = operation.kernel.by_method(self.method)
+        if _FLOATS.issuperset(map(type, operation.arguments)):
+            is_one = kernel is operation.kernel
+            return operation if is_one else Operation(kernel, operation.arguments)
         known: dict[int, Operation] = {}
-        results: list[Operand | ResultOf] = []
+        results: list[float | Operand | ResultOf] = []
         for argument in operation.arguments:
             if type(argument) is float:
-                results.append(Operand(argument))
+                results.append(argument)
             elif type(argument) is ResultOf:
                 inner = argument.operation
                 if id(inner) not in known:
@@ -182,7 +188,7 @@ class _Lowering:
                 operand = operand_of(argument)
                 is_bound = isinstance(operand.value, Parameter) and operand.value.bound
                 results.append(_number_bound(operand) if is_bound else operand)
-        return Operation(operation.kernel.by_method(self.method), tuple(results))
+        return Operation(kernel, tuple(results))
 
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
         """Return the frame in which light leaves an element; the unit frame if none is known."""

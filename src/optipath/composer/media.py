@@ -149,10 +149,11 @@ class Media:
     def _arriving(self) -> Iterator[Agreement]:
         """What must hold of light that comes out of media that absorb."""
         wiring = self.meetings.wiring
-        for name in sorted(wiring.alike.where(_absorbs)):
-            for port in sorted(self.elements[name].inputs):
-                if wiring.is_lit(name, port):
-                    yield from arriving_waves(name, self.elements[name], port)
+        for name in sorted(wiring.alike.where(_may_absorb)):
+            element = self.elements[name]
+            for port in sorted(element.inputs):
+                if type(element.medium_at(port)) is not float and wiring.is_lit(name, port):
+                    yield from arriving_waves(name, element, port)
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""
@@ -171,12 +172,11 @@ class Media:
         return has_one and face.measured[1] is face.outside
 
 
-def _absorbs(element: Element) -> bool:
+def _may_absorb(element: Element) -> bool:
     """Tell whether light may come to a boundary out of a medium that absorbs."""
     if not isinstance(element, BoundaryElement):
         return False
-    ports = [port for port in element.inputs if type(element.medium_at(port)) is not float]
-    return any(arriving_waves("", element, port) for port in ports)
+    return not {type(element.medium_at(port)) for port in element.inputs} <= {float}
 
 
 def index_of(value: Any) -> Operand:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.wiring import link_text
+from optipath.composer.wiring import Wiring, link_text
 from optipath.elements.boundary_media import MediaOfBoundary
-from optipath.elements.element import Alike, Element
 from optipath.elements.own_element import couplings_of
 from optipath.errors import ValueFault
 from optipath.materials.quantities import ANGLE, SPECTRAL
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
+    from optipath.elements.element import Alike
     from optipath.values.agreement import Agreement
 
 
@@ -42,9 +42,14 @@ class Values:
         self.graph = graph
 
     @cached_property
+    def wiring(self) -> Wiring:
+        """The graph by its ports."""
+        return Wiring(self.graph)
+
+    @property
     def alike(self) -> Alike:
         """For each node, the first element that is equal to its own."""
-        return Alike(dict(self.graph.nodes(data="element")))
+        return self.wiring.alike
 
     @property
     def has_followers(self) -> bool:
@@ -60,9 +65,8 @@ class Values:
         for name, element in self.alike.distinct.items():
             results += element.uses(name)
         results += self._entered()
-        for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
-            if azimuth is not None:
-                results.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
+        for link, azimuth in self.wiring.azimuths.items():
+            results.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
         for use in results:
             if isinstance(use.value, CurveValue):
                 results = [each for one in results for each in one.with_arguments()]
@@ -78,11 +82,12 @@ class Values:
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
-        asked = {*self.alike.where(lambda e: type(e).uses_entered is not Element.uses_entered)}
         entries: dict[tuple[int, str], str] = {}
-        for _, end, key in self.graph.edges(keys=True) if asked else ():
-            if end in asked:
-                entries.setdefault((id(self.alike[end]), key[1]), end)
+        linked = self.wiring.links_to
+        for name in self.alike.where(lambda element: bool(element.asking)):
+            for port in self.alike[name].asking:
+                if (name, port) in linked:
+                    entries.setdefault((id(self.alike[name]), port), name)
         every = [(name, port) for (_, port), name in entries.items()]
         return [use for name, port in every for use in self.alike[name].uses_entered(name, port)]
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import chain
 from math import inf
 from operator import and_
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.composer.flow import Flow, Item, find_alive, idle_items, number_of, vanishes
+from optipath.composer.flow import Flow, find_alive, idle_items, number_of, vanishes
+from optipath.engines.draft import DraftStep
 from optipath.engines.program import MODELS, Reduction, Tolerance
 from optipath.errors import ComposerError
 from optipath.faults import listed
@@ -32,7 +32,7 @@ from optipath.kernels.catalog import (
     TURN_BACK,
 )
 from optipath.kernels.primitives import FLOAT
-from optipath.values.operands import Operand, Operation, ResultOf
+from optipath.values.operands import Operand, Operation, ResultOf, operand_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -48,6 +48,8 @@ if TYPE_CHECKING:
 
 def left_out(flow: Flow) -> list[str]:
     """Take the steps out that do nothing to what is alive."""
+    if flow.is_looked_at:  # As it was when nothing was found to be idle.
+        return []
     find_alive(flow)
     if not (idle := idle_items(flow)):
         return []
@@ -57,10 +59,10 @@ def left_out(flow: Flow) -> list[str]:
     notes = []
     for node in flow.chains:
         for item in node.items:
-            if item in idle:
-                what = f"{item.kernel.name} at '{item.label}'"
+            if id(item) in idle:
+                what = f"{item.operation.kernel.name} at '{item.label}'"
                 notes.append(f"left out, since it changes nothing alive: {what}")
-        node.items = [item for item in node.items if item not in idle]
+        node.items = [item for item in node.items if id(item) not in idle]
     return notes
 
 
@@ -141,14 +143,16 @@ def cheaper_kernels(flow: Flow) -> list[str]:
     """Give each step the cheapest kernel for what is known of its arguments."""
     notes: list[str] = []
     cheapest: dict[int, Operation | None] = {}
-    items = chain.from_iterable([node.items for node in flow.chains])
-    for item in [item for item in items if item.kernel.has_cheaper]:
-        operation = item.operation
-        if id(operation) not in cheapest:
-            cheapest[id(operation)] = _cheaper(operation)
-        if cheaper := cheapest[id(operation)]:
-            notes.append(f"cheaper at '{item.label}': {cheaper.kernel.name}")
-            item.become(cheaper)
+    for node in flow.chains:
+        for place, item in enumerate(node.items):
+            operation = item.operation
+            if not operation.kernel.has_cheaper:
+                continue
+            if id(operation) not in cheapest:
+                cheapest[id(operation)] = _cheaper(operation)
+            if cheaper := cheapest[id(operation)]:
+                notes.append(f"cheaper at '{item.label}': {cheaper.kernel.name}")
+                node.items[place] = DraftStep(item.label, (), cheaper, item.presence)
     return notes
 
 
@@ -159,15 +163,15 @@ def _cheaper(operation: Operation) -> Operation | None:
     return None if cheaper is kernel else Operation(cheaper, arguments)
 
 
-def _vanishes(argument: Operand | ResultOf) -> bool:
-    if isinstance(argument, ResultOf):
+def _vanishes(argument: Any) -> bool:
+    if type(argument) is ResultOf:
         return False
     number = number_of(argument)
     return vanishes(argument) if number is None else number == 0.0
 
 
-def _span(argument: Operand | ResultOf) -> tuple[float, float]:
-    if isinstance(argument, ResultOf):
+def _span(argument: Any) -> tuple[float, float]:
+    if type(argument) is ResultOf:
         return -inf, inf
     number = number_of(argument)
     return argument.span if number is None else (number, number)
@@ -199,16 +203,15 @@ class Constant:
     @cached_property
     def lets_through(self) -> bool:
         """Whether no light is nearly extinguished by it."""
-        first = self.rows()[0]
-        return first[0] - math.hypot(*first[1:]) > _EXTINCT * first[0]
+        if self.structure is ROTATION:
+            return True
+        first, *others = self.rows[0]
+        return first - math.hypot(*others) > _EXTINCT * first
 
+    @cached_property
     def rows(self) -> Sequence[tuple[float, ...]]:
-        """Return the matrix."""
+        """The matrix."""
         return self.structure.rows(FLOAT, self.numbers)
-
-    def as_full(self) -> Constant:
-        """Return the same with all sixteen entries."""
-        return Constant(FULL, tuple([float(entry) for row in self.rows() for entry in row]))
 
     def then(self, later: Constant) -> Constant | None:
         """Return both as one of the same sort, no digit lost; None where they have none.
@@ -221,26 +224,26 @@ class Constant:
             (c1, s1), (c2, s2) = self.numbers, later.numbers
             return Constant(ROTATION, (c1 * c2 - s1 * s2, s1 * c2 + c1 * s2))
         if one == other == BLOCK.name:
-            return _unless_identity(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
+            return _unless_lost(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
         if SCALE.name in (one, other) and {one, other}.isdisjoint([ROTATION.name, JONES.name]):
             scale, scaled = (self, later) if one == SCALE.name else (later, self)
             product = tuple([scale.numbers[0] * number for number in scaled.numbers])
-            return _unless_identity(Constant(scaled.structure, product))
+            return _unless_lost(Constant(scaled.structure, product))
         return None
 
 
 def multiplied(first: Constant, second: Constant) -> Constant | None:
     """Return two constants in the order of travel as one matrix; None if it is too faint."""
-    one, other = first.as_full().numbers, second.as_full().numbers
-    rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
+    columns = [*zip(*first.rows, strict=True)]
+    rows = second.rows
     entries = [a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns]
-    result = _unless_identity(Constant(FULL, tuple(entries)))
+    result = _unless_lost(Constant(FULL, tuple(entries)))
     return result if result and result.lets_through else None
 
 
-def _unless_identity(product: Constant) -> Constant | None:
+def _unless_lost(product: Constant) -> Constant | None:
     """Return a product unless its intensity is so faint, or so large, that it might get lost."""
-    return product if _LEAST < product.rows()[0][0] < 1.0 / _LEAST else None
+    return product if _LEAST < product.rows[0][0] < 1.0 / _LEAST else None
 
 
 def _blocks(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, ...]:
@@ -257,35 +260,37 @@ _MOST = 16
 def multiplied_constants(flow: Flow, *, matrices: bool) -> list[str]:
     """Make neighbouring constants one, in float64."""
     notes: list[str] = []
+    constants = flow.constants
 
-    def constant_of(item: Item) -> Constant | None:
-        structure = item.kernel.structure
-        if item.presence is not None or structure is None:
-            return None
-        numbers = flow.facts.outcome(item.operation)
-        return None if numbers is None else Constant(structure, numbers)
+    def constant_of(operation: Any) -> Constant | None:
+        structure = operation.kernel.structure
+        numbers = None if structure is None else flow.facts.outcome(operation)
+        constant = None if numbers is None else Constant(structure, numbers)
+        constants[id(operation)] = constant, operation
+        return constant
 
-    def done_to(items: list[Item]) -> list[Item]:
-        results: list[Item] = []
-        run: list[tuple[Item, Constant]] = []
+    def done_to(items: list[DraftStep]) -> list[DraftStep]:
+        results: list[DraftStep] = []
+        run: list[tuple[DraftStep, Constant]] = []
         for item in items:
-            constant = item.constant
-            if constant is False:
-                constant = item.constant = constant_of(item)
+            operation, constant = item.operation, None
+            if item.presence is None:
+                known = constants.get(id(operation))
+                constant = known[0] if known else constant_of(operation)
             if constant is None:
                 if run:
                     results += as_one(run)
                     run = []
                 results.append(item)
             elif constant.numbers == constant.structure.identity:
-                notes.append(f"{item.kernel.name} at '{item.label}' changes nothing")
+                notes.append(f"{operation.kernel.name} at '{item.label}' changes nothing")
             elif run and (both := run[-1][1].then(constant)):
-                run[-1] = _joined([run[-1][0], item], both, notes), both
+                run[-1] = _joined(run[-1][0], item, both, notes), both
             else:
                 run.append((item, constant))
-        return results + as_one(run)
+        return results + as_one(run) if run else results
 
-    def as_one(run: Sequence[tuple[Item, Constant]]) -> list[Item]:
+    def as_one(run: Sequence[tuple[DraftStep, Constant]]) -> list[DraftStep]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
         if len(run) < 2:
             return [item for item, _ in run]
@@ -293,36 +298,41 @@ def multiplied_constants(flow: Flow, *, matrices: bool) -> list[str]:
         dear = matrices and sum(costs) > _KINDS[FULL.name][1]
         if not (dear and all(constant.lets_through for _, constant in run)):
             return [item for item, _ in run]
-        results: list[tuple[Item, Constant]] = []
+        results: list[tuple[DraftStep, Constant]] = []
         for place, (item, constant) in enumerate(run):
             both = multiplied(results[-1][1], constant) if place % _MOST else None
             if both:
-                results[-1] = _joined([results[-1][0], item], both, notes), both
+                results[-1] = _joined(results[-1][0], item, both, notes), both
             else:
                 results.append((item, constant))
         return [item for item, _ in results]
 
+    items = [item for node in flow.chains for item in node.items if item.presence is None]
+    flow.facts.look_up([item.operation for item in items])
     for node in flow.chains:
         node.items = done_to(node.items)
     return notes
 
 
-def _joined(items: Sequence[Item], constant: Constant, notes: list[str]) -> Item:
+def _joined(first: DraftStep, second: DraftStep, constant: Constant, notes: list[str]) -> DraftStep:
     """Return neighbours as one step, and note it."""
-    names = [f"{item.kernel.name} at '{item.label}'" for item in items]
-    notes.append(f"constant, and multiplied: {' and '.join(names)}")
-    kernel = _KINDS[constant.structure.name][0]
-    operation = Operation(kernel, tuple(map(Operand, constant.numbers)))
-    return Item(label_of(items), operation, once=items[-1].once)
+    one, other = [f"{item.operation.kernel.name} at '{item.label}'" for item in (first, second)]
+    notes.append(f"constant, and multiplied: {one} and {other}")
+    operation = Operation(_KINDS[constant.structure.name][0], constant.numbers)
+    return DraftStep(label_of(first, second), (), operation)
 
 
 _WORDS = 60
 """How long the name of a step may become that is made of several."""
 
 
-def label_of(items: Sequence[Item]) -> str:
+def label_of(first: DraftStep, second: DraftStep) -> str:
     """Return the names of steps as one, the first and the last where they would be too long."""
-    names = [name for item in items for name in item.label.split(", ")]
+    one, other = first.label, second.label
+    whole = one if one == other else f"{one}, {other}"
+    if len(whole) <= _WORDS and (one == other or (", " not in one and ", " not in other)):
+        return whole
+    names = [*one.split(", "), *other.split(", ")]
     whole = ", ".join(dict.fromkeys(names))
     if len(whole) <= _WORDS:
         return whole
@@ -335,71 +345,71 @@ def joined_turns(flow: Flow, *, sums: bool) -> list[str]:
     # Equal turns meet in many places.
     known: dict[tuple[int, int, bool], tuple[Operation | None, Operation, Operation]] = {}
 
-    def joined(items: list[Item]) -> list[Item]:
-        results: list[Item] = []
-        after_turn = False
-        for item in items:
-            is_turn = _is_turn(item)
-            if is_turn and after_turn and len(results[-1].operation.arguments) < _MOST:
-                names = dict.fromkeys(f"'{turn.label}'" for turn in (results[-1], item))
-                notes.append(f"the turns at {' and '.join(names)} are one")
-                first, adds = results.pop(), sums and item.once
-                pair = first.operation, item.operation
-                key = id(pair[0]), id(pair[1]), adds
-                if (one := known.get(key)) is None:
-                    one = known[key] = _as_one(*pair, sums=adds), *pair
-                if one[0] is not None:
-                    results.append(Item(label_of([first, item]), one[0], once=item.once))
-                after_turn = bool(results) and _is_turn(results[-1])
-            else:
-                results.append(item)
-                after_turn = is_turn
-        return results
+    def one_of(first: DraftStep, item: DraftStep, *, adds: bool) -> DraftStep | None:
+        one, other = first.label, item.label
+        where = f"'{one}'" if one == other else f"'{one}' and '{other}'"
+        notes.append(f"the turns at {where} are one")
+        pair = first.operation, item.operation
+        key = id(pair[0]), id(pair[1]), adds
+        if (both := known.get(key)) is None:
+            both = known[key] = _as_one(*pair, sums=adds), *pair
+        return None if both[0] is None else DraftStep(label_of(first, item), (), both[0])
 
     for node in flow.chains:
-        turns = [item.kernel is TURN or item.kernel is TURN_BACK for item in node.items]
-        if True in map(and_, turns, turns[1:]):
-            node.items = joined(node.items)
+        turns = [*map(_is_turn, node.items)]
+        if True not in map(and_, turns, turns[1:]):
+            continue
+        results: list[DraftStep] = []
+        ahead = None  # The turn that is the last of the results.
+        for item, is_turn in zip(node.items, turns, strict=True):
+            if is_turn and ahead and len(ahead.operation.arguments) < _MOST:
+                results.pop()
+                if (ahead := one_of(ahead, item, adds=sums and node.once)) is None:
+                    ahead = results[-1] if results and _is_turn(results[-1]) else None
+                else:
+                    results.append(ahead)
+                continue
+            results.append(item)
+            ahead = item if is_turn else None
+        node.items = results
     return notes
 
 
-def _is_turn(item: Item) -> bool:
+def _is_turn(item: DraftStep) -> bool:
     operation = item.operation
-    turns = operation.kernel is TURN or operation.kernel is TURN_BACK
-    return (
-        turns
-        and item.presence is None
-        and all(type(argument) is Operand for argument in operation.arguments)
-    )
+    is_turn = operation.kernel is TURN or operation.kernel is TURN_BACK
+    if item.presence is not None or not is_turn:
+        return False
+    return ResultOf not in map(type, operation.arguments)
 
 
 def _as_one(first: Operation, second: Operation, *, sums: bool) -> Operation | None:
     """Return two turns as one, or None if they undo each other."""
-    known, left = 0.0, list[Operand]()
-    for angle in (*_angles(first), *_angles(second)):
-        if sums and (number := number_of(angle)) is not None:
-            known += number
-            continue
-        opposite = _opposite_key(angle)
-        undone = [other for other in left if opposite is not None and other.key() == opposite]
-        if undone:
-            left.remove(undone[0])
-        else:
-            left.append(angle)
+    known = 0.0
+    left: list[tuple[Hashable, Operand, bool]] = []
+    for turn in (first, second):
+        back = turn.kernel is TURN_BACK
+        for argument in turn.arguments:
+            if sums and (number := number_of(argument)) is not None:
+                known += -number if back else number
+                continue
+            angle = operand_of(argument)
+            key, opposite = _keys(angle)
+            if back:
+                key, opposite = opposite, key
+            if undone := [each for each in left if opposite is not None and each[0] == opposite]:
+                left.remove(undone[0])
+            else:
+                left.append((key, angle, back))
+    angles = [angle.negated() if back else angle for _, angle, back in left]
     if known:
-        left.append(Operand(known))
-    return Operation(TURN, tuple(left)) if left else None
+        angles.append(Operand(known))
+    return Operation(TURN, tuple(angles)) if angles else None
 
 
-def _opposite_key(angle: Operand) -> Hashable:
-    value = angle.value
-    if type(value) is Parameter:
-        return value.name, -value.scale, -value.offset, angle.part
-    return angle.negated().key()
-
-
-def _angles(turn: Operation) -> list[Operand]:
-    angles = turn.arguments
-    if turn.kernel is TURN_BACK:
-        return [angle.negated() for angle in angles]
-    return [*angles]
+def _keys(angle: Operand) -> tuple[Hashable, Hashable]:
+    """Return what equal angles share, and what opposite ones do."""
+    value, part = angle.value, angle.part
+    if isinstance(value, Parameter):
+        return angle.key(), (value.name, -value.scale, -value.offset, part)
+    return angle.key(), angle.negated().key()

@@ -55,6 +55,15 @@ class Wiring:
         self.keep = keep
         self.loops = graph.graph.get("loops", LOOPS[0]) if loops is None else loops
 
+    def changed(self, loops: str | None, keep: str) -> Wiring:
+        """Return the same wiring for other loops, and for what is kept."""
+        if loops is None and keep == self.keep:
+            return self
+        result = Wiring(self.graph, loops, keep)
+        shared = ("elements", "_links", "links_to", "couplings", "alike")
+        vars(result).update({name: vars(self)[name] for name in shared if name in vars(self)})
+        return result
+
     @cached_property
     def elements(self) -> dict[str, Element]:
         """The element of each node."""
@@ -95,11 +104,20 @@ class Wiring:
         turns = [(name, getattr(e, "azimuth", 0.0)) for name, e in self.elements.items()]
         return frozenset([name for name, turn in turns if type(turn) is not float or turn])
 
-    def may_turn(self, link: Link) -> bool:
-        """Tell whether a link may turn frames: by its azimuth, or those in the world."""
-        start, end, _ = link
-        placed = self.placed
-        return end in self.turned or link in self.azimuths or start in placed or end in placed
+    @cached_property
+    def turning(self) -> frozenset[Link]:
+        """The links that may turn frames: by an azimuth, or next to frames in the world."""
+        at = self.turned | self.placed
+        return frozenset([link for link in self.links if link[1] in at]).union(self.told)
+
+    @cached_property
+    def told(self) -> list[Link]:
+        """The links that say a turn themselves, or have frames in the world at an end."""
+        azimuths, placed = self.azimuths, self.placed
+        if not azimuths and not placed:
+            return []
+        links = self.links
+        return [at for at in links if at in azimuths or at[0] in placed or at[1] in placed]
 
     @cached_property
     def placed(self) -> frozenset[str]:

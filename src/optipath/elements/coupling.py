@@ -92,6 +92,8 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
         return (value,)
     if type(value) is float:
         return value, 0.0
+    if type(value) is complex:
+        return value.real, value.imag
     if isinstance(value, (int, float, complex, np.ndarray)):
         return read_only(np.real(value)), read_only(np.imag(value))
     return Operand(value, "real"), Operand(value, "imag")

@@ -180,6 +180,7 @@ class Element(Chainable):
     detects: ClassVar[bool] = False
     physical: ClassVar[bool] = True
     mirrored: ClassVar[tuple[str, ...] | None] = None
+    asking: ClassVar[tuple[str, ...]] = ()
     _ports_back: ClassVar[dict[str, str]] = {}
     _kernel: ClassVar[Kernel | None] = None
     _is_sound: ClassVar[bool] = False  # Whether the values have been checked, and are allowed.
@@ -207,13 +208,16 @@ class Element(Chainable):
     @property
     def key(self) -> Hashable:
         """What equal elements share; of those with arrays, or not checked yet, each has its own."""
-        own = vars(self)  # With what elements of a user's own keep besides their fields.
-        values = [*own.values()]
+        cls: Any = type(self)
+        own = vars(self)
+        values = own.values()
         if not self._is_sound or not _HASHED.issuperset(map(type, values)):
             return id(self)
         # 0 is not -0.
         signs = [copysign(1.0, value) for value in values if type(value) is float and not value]
-        return (type(self), *own, *values, *signs)
+        # Elements of a user's own may keep more than their fields.
+        more = own if len(own) != len(cls.__match_args__) + 1 else ()
+        return (cls, *values, *signs, *more)
 
     def named(self, name: str) -> NamedElement:
         """Return the element with the name of its node in a chain.
@@ -246,6 +250,8 @@ class Element(Chainable):
     def uses_entered(self, owner: str, port: str) -> list[Use]:
         """Return the numbers that must be something besides, where a link leads to a port.
 
+        Asked of the `asking` ports alone.
+
         Parameters
         ----------
         owner, port : str
@@ -269,8 +275,9 @@ class Element(Chainable):
         """Return the numbers that the values are made of, each with what it must be."""
         if self._is_sound and _PLAIN.issuperset(map(type, vars(self).values())):
             return []  # Nothing of it is given later, or has a shape.
-        sound = self._is_sound
-        return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
+        sound, plain = self._is_sound, _PLAIN if self._is_sound else ()
+        every = [each for each in self.quantities() if type(each[1]) not in plain]
+        return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in every]
 
     def agreements(self, owner: str) -> Iterable[Agreement]:
         """Return what must fit of the values, known or given when the path runs."""

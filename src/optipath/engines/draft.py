@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from functools import cached_property
 from heapq import heapify, heappop, heappush
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from optipath.engines.program import Evaluation, Loop, Program, Result, Step
-from optipath.values.operands import Operand
+from optipath.values.operands import Operand, ResultOf, operand_of
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping, Sequence
@@ -15,15 +15,28 @@ if TYPE_CHECKING:
     from optipath.values.operands import Operation
 
 
-class DraftStep(NamedTuple):
-    """Makes one light: the sum of its inputs, changed by an operation where that is present."""
+class DraftStep:
+    """Makes one light: the sum of its inputs, changed by an operation where that is present.
 
-    label: str
-    inputs: tuple[int, ...]
-    operation: Operation | None = None
-    presence: Operand | None = None
-    port: bool = False
-    bounces: int = 0
+    Light at a port has taken so many bounces on the way there; any other, None.
+    """
+
+    __slots__ = ("action", "bounces", "inputs", "label", "operation", "presence")
+
+    def __init__(
+        self,
+        label: str,
+        inputs: tuple[int, ...],
+        operation: Operation | None = None,
+        presence: Operand | None = None,
+        bounces: int | None = None,
+    ) -> None:
+        self.label = label
+        self.inputs = inputs
+        self.operation: Any = operation
+        self.presence = presence
+        self.bounces = bounces
+        self.action: Any = None  # What it makes of components, once that was looked up.
 
 
 class Draft:
@@ -40,10 +53,10 @@ class Draft:
         inputs: tuple[int, ...],
         operation: Operation,
         presence: Operand | None = None,
-        about: tuple[bool, int] = (False, 0),
+        bounces: int | None = None,
     ) -> int:
-        """Add a step that does something to light; about it, whether at a port, and its bounces."""
-        self.steps.append(DraftStep(label, inputs, operation, presence, *about))
+        """Add a step that does something to light."""
+        self.steps.append(DraftStep(label, inputs, operation, presence, bounces))
         return len(self.steps) - 1
 
     def sum(self, label: str, lights: Sequence[int]) -> int:
@@ -56,7 +69,7 @@ class Draft:
     def close(self, inputs: Mapping[int, Sequence[int]]) -> None:
         """Say what the junctions of a loop add up, now that all of its steps are there."""
         for junction, lights in inputs.items():
-            self.steps[junction] = self.steps[junction]._replace(inputs=tuple(lights))
+            self.steps[junction].inputs = tuple(lights)
         self.loops.append((tuple(inputs), len(self.steps)))
 
     @cached_property
@@ -85,17 +98,21 @@ class _Sharing:
         self.evaluations: list[Evaluation] = []
         self.operations: list[Operation] = []
         self._operand_at: dict[Hashable, int] = {}
+        self._number_at: dict[Hashable, int] = {}
         self._evaluation_at: dict[Evaluation, int] = {}
         # By their numbers, which are theirs as long as the draft is there.
-        known = self._place_of = dict[tuple[int, int], int]()
+        known = self._place_of = dict[Any, int]()
         steps = []
-        for label, inputs, operation, presence, port, bounces in draft.steps:
-            if operation is None:
-                steps.append(Step(label, inputs))
+        for step in draft.steps:
+            if (operation := step.operation) is None:
+                steps.append(Step(step.label, step.inputs))
                 continue
-            if (place := known.get((id(operation), id(presence)))) is None:
+            presence = step.presence
+            key = id(operation) if presence is None else (id(operation), id(presence))
+            if (place := known.get(key)) is None:
                 place = self._evaluation(operation, presence)
-            steps.append(Step(label, inputs, place, port, bounces))
+            bounces = step.bounces
+            steps.append(Step(step.label, step.inputs, place, bounces is not None, bounces or 0))
         loops = tuple([_loop(steps, *loop) for loop in draft.loops])
         self.program = Program(
             tuple(self.operands), tuple(self.evaluations), tuple(steps), loops=loops, **draft.ends
@@ -104,21 +121,25 @@ class _Sharing:
 
     def _evaluation(self, operation: Operation, presence: Operand | None = None) -> int:
         arguments: list[int | Result] = []
-        known = self._operand_at
+        known, numbers = self._operand_at, self._number_at
         for argument in operation.arguments:
-            if type(argument) is Operand:
-                value = argument.value
-                # But for 0, which may be -0.
-                plain = type(value) is float and value
-                key = (value, argument.part) if plain else argument.key()
-                if (place := known.get(key)) is None:
-                    place = self._entered(argument, key)
-                arguments.append(place)
+            if type(argument) is ResultOf:
+                inner = argument.operation
+                if (place := self._place_of.get(id(inner))) is None:
+                    place = self._evaluation(inner)
+                arguments.append(Result(place, argument.place))
                 continue
-            inner = argument.operation
-            if (place := self._place_of.get((id(inner), id(None)))) is None:
-                place = self._evaluation(inner)
-            arguments.append(Result(place, argument.place))
+            number = argument
+            if type(argument) is Operand and argument.part == "value":
+                number = argument.value
+            if type(number) is float:
+                key: Hashable = number or str(number)  # 0 is not -0.
+                if (place := numbers.get(key)) is None:
+                    place = numbers[key] = len(self.operands)
+                    self.operands.append(operand_of(argument))
+            elif (place := known.get(key := argument.key())) is None:
+                place = self._entered(argument, key)
+            arguments.append(place)
         there = None if presence is None else self._entered(presence, presence.key())
         kernel: Any = operation.kernel
         evaluation = Evaluation(kernel, tuple(arguments), there)
@@ -126,7 +147,8 @@ class _Sharing:
         if index == len(self.evaluations):
             self.evaluations.append(evaluation)
             self.operations.append(operation)
-        self._place_of[id(operation), id(presence)] = index
+        key = id(operation) if presence is None else (id(operation), id(presence))
+        self._place_of[key] = index
         return index
 
     def _entered(self, operand: Operand, key: Hashable) -> int:

@@ -131,6 +131,21 @@ FLOAT = _primitives(
 )
 
 
+def _one_by_one(function: Callable[..., float], count: int) -> Callable[..., Any]:
+    each = np.frompyfunc(function, count, 1)
+    return lambda *numbers: np.asarray(each(*numbers), np.float64)
+
+
+FLOAT_ARRAYS = replace(
+    NUMPY,
+    sin=_one_by_one(math.sin, 1),
+    cos=_one_by_one(math.cos, 1),
+    exp=_one_by_one(math.exp, 1),
+    atan2=_one_by_one(math.atan2, 2),
+)
+"""`FLOAT` over arrays, with the same bits: libraries have sines of their own for arrays."""
+
+
 class Made(partial[KernelFunction]):
     """A factory out of others, equal to one that is made of equal ones; plans pickle it."""
 

@@ -6,7 +6,6 @@ import os
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from contextlib import contextmanager
-from copy import copy
 from dataclasses import fields
 from math import prod
 from types import NoneType
@@ -308,8 +307,8 @@ def same(first: Any, second: Any) -> bool:
 
 def changed(value: T, **others: Any) -> T:
     """Return a copy of a frozen dataclass with other fields, of which nothing is checked again."""
-    result = copy(value)
-    vars(result).update(others)
+    result = object.__new__(type(value))
+    vars(result).update(vars(value), **others)
     return result
 
 
