@@ -95,8 +95,7 @@ class BeamSplitter(Splitter, kind="beam-splitter"):
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the mirror and what passes it, from either side."""
         mirror = Operation(MIRROR, (self.reflectance,))
-        passing = Operation(COMPLEMENT, (self.reflectance,))
-        both = mirror, passing
+        both = mirror, Operation(COMPLEMENT, (self.reflectance,))
         return self._ways(both, both)
 
 

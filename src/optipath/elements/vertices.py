@@ -125,8 +125,7 @@ class ChainVertex(MediaOfBoundary, Element):
         """Return the turn from the frame in which light leaves the vertex before."""
         # The vertex before is the one that this chain says.
         hardly = self.refracts or getattr(before, "refracts", False)
-        turn = TURN_AT_REFRACTION if hardly else TURN_BETWEEN_PLANES
-        return self._points.planes(turn)
+        return self._points.planes(TURN_AT_REFRACTION if hardly else TURN_BETWEEN_PLANES)
 
     def fault_behind(self, before: Element) -> str:
         """Say which vertex light must come from, unless it comes from the one before this."""

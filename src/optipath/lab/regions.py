@@ -179,8 +179,7 @@ def _large(dice: Dice) -> tuple[Floats, Floats]:
 
 def _extreme(dice: Dice) -> tuple[Floats, ...]:
     size, phase = dice.extreme(), dice.even(0.1, 1.4)
-    k = dice.some(size * np.sin(phase))
-    return size * np.cos(phase), k, *_inner(dice)
+    return size * np.cos(phase), dice.some(size * np.sin(phase)), *_inner(dice)
 
 
 _NONE = np.zeros(1)

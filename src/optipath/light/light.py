@@ -516,8 +516,7 @@ class Light(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         """
         from optipath.light.integration import integrated  # noqa: PLC0415 - hardly ever
 
-        summed = integrated(self, response, edges)
-        return self.of(*summed, measured=self.is_measured)
+        return self.of(*integrated(self, response, edges), measured=self.is_measured)
 
     def to_xyz(
         self, white: Any = None, observer: Standard = "CIE 1931 2 deg", *, outside: Beyond = "dark"

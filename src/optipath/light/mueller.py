@@ -512,8 +512,7 @@ class Mueller(FramesOnDemand, ArrayAxes, EllipsometricAngles, Unchanging):
         return {**super().__getstate__(), "_noise": self.noise}
 
     def _each(self, change: Callable[[Any], Any]) -> Mueller:
-        numbers = known(self.matrix)
-        flat = each_number(numbers.reshape(*self.shape, 16), change)
+        flat = each_number(known(self.matrix).reshape(*self.shape, 16), change)
         of_in, of_out = (
             self._part_of_frame(name, self.shape, change) for name in ("frame_in", "frame_out")
         )

@@ -72,8 +72,7 @@ def tabulated(
     texts = [entry for entry in samples.ravel().tolist() if isinstance(entry, str)]
     if not dimension_of(unit):
         unit = next(map(unit_of, texts), "")
-    dimension = dimension_of(unit)
-    parse = partial(parse_quantity, dimension=dimension, default_unit=unit)
+    parse = partial(parse_quantity, dimension=dimension_of(unit), default_unit=unit)
     numbers = numbers_for(f"values of {label}", values, parse)
     row = np.asarray(numbers)
     if unit and not texts and row.dtype.kind in "iuf":
@@ -143,8 +142,7 @@ class DrudeRotation(FormulaCurve):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        size = parse_quantity(f"1 {self.unit}", dimension_of(self.unit))
-        vars(self).update(_size=size)
+        vars(self).update(_size=parse_quantity(f"1 {self.unit}", dimension_of(self.unit)))
 
     def arguments(self) -> list[Coefficient]:
         rows = [*coefficients("strengths", self.strengths), *coefficients("poles", self.poles)]

@@ -253,8 +253,7 @@ class Material(ComparedByFields):
         1.5168
         """
         label = label_of("a material", name, "a Sellmeier formula")
-        curve = Sellmeier(label, b, c, resonances, offset, span=span)
-        return cls.of_curve(curve, wavelength, k)
+        return cls.of_curve(Sellmeier(label, b, c, resonances, offset, span=span), wavelength, k)
 
     @classmethod
     def cauchy(
@@ -331,8 +330,7 @@ class Material(ComparedByFields):
         """
         label = label_of("a material", name, "a Drude-Lorentz model")
         of_all = plasma, damping, strength, oscillators, background
-        curve = DrudeLorentz(label, *of_all, span=span)
-        return cls.of_curve(curve, wavelength)
+        return cls.of_curve(DrudeLorentz(label, *of_all, span=span), wavelength)
 
     @classmethod
     def tauc_lorentz(

@@ -96,8 +96,7 @@ class Answers:
     def matrix(self, source: str, end: str, parameters: Mapping[str, Any]) -> Any:
         """Return the Mueller matrices from a source to an end. Shape: returns (..., 4, 4)."""
         self.plan.inputs.warn_of_angles(parameters)
-        question = MatrixQuestion(self.plan.whole, source, end)
-        return self.whole.answer(question, parameters)
+        return self.whole.answer(MatrixQuestion(self.plan.whole, source, end), parameters)
 
     def certificates(self, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
         """Return the certificate of every end."""

@@ -105,8 +105,7 @@ class Interpreter:
             faint = np.any([underflows(stokes[..., 0]) for stokes in result], axis=0)
         if np.any(faint):
             scaled = self._execute(arguments, self._carriers[ScaledCarrier], None, own)
-            again = self._read(arguments, scaled)
-            pairs = zip(again, result, strict=True)
+            pairs = zip(self._read(arguments, scaled), result, strict=True)
             result = [np.where(faint[..., np.newaxis], one, other) for one, other in pairs]
         return [stokes.reshape(*batch, 4) for stokes in result]
 

@@ -40,8 +40,7 @@ class NoiseInterpreter(Interpreter):
         carrier = NoiseCarrier(NUMPY, self.eps)
         result = np.zeros((2, *arguments.shape), self.dtype)
         for piece in pieces(arguments.shape, _AT_ONCE):
-            part = arguments.part(piece.where)
-            lights = self._execute(part, carrier)
+            lights = self._execute(arguments.part(piece.where), carrier)
             (intensity, noise, _, _), power = lights[reading.light]
             for row, number in enumerate((intensity, noise)):
                 with np.errstate(over="ignore", under="ignore"):

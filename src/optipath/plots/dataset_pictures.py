@@ -143,5 +143,4 @@ def numbers_of(dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis])
     name = other if other in dataset.data_vars else quantity.name
     OptipathError.raise_for(unknown("variable", name, [str(each) for each in dataset.data_vars]))
     dimensions = [dataset.coords[axis.name].dims[0] for axis in axes]
-    numbers = dataset[name].squeeze().transpose(*dimensions).values
-    return quantity.of(numbers)
+    return quantity.of(dataset[name].squeeze().transpose(*dimensions).values)

@@ -172,8 +172,7 @@ def mueller_hemisphere(
         ax: Any = panel[row, column]
         ax.set_title(f"{name} / M00" if row or column else "M00")
         if row or column:
-            pixels = value[..., row, column]
-            image = _draw_disc(ax, seen, pixels, signed, labelled=False)
+            image = _draw_disc(ax, seen, value[..., row, column], signed, labelled=False)
     toned.bar(first, list(panel[:2].flat), "M00 (1/sr)", shrink=0.8)
     signed.bar(image, list(panel[2:].flat), "over M00", shrink=0.8)
     _head_panel(panel, axes, seen, "Mueller matrices", f"no light, or not known to {limit:g}")

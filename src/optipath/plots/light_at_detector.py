@@ -304,8 +304,7 @@ class FineSteps(NamedTuple):
         """Return what is to be said where lines are not near."""
         if self.resolved:
             return ""
-        count = len(self.values)
-        message = f"it changes faster with {name} than {count} points tell"
+        message = f"it changes faster with {name} than {len(self.values)} points tell"
         return f"{message}; give values in a smaller range"
 
 

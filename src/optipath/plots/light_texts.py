@@ -92,8 +92,7 @@ def digits(value: float, count: int = 4) -> str:
     >>> digits(0.25), digits(2e200), digits(0.1 + 0.2), digits(-0.0)
     ('0.25', '2e200', '0.3', '0')
     """
-    text = f"{value + 0.0:.{count}g}"
-    mantissa, mark, power = text.partition("e")
+    mantissa, mark, power = f"{value + 0.0:.{count}g}".partition("e")
     return (mantissa + (f"e{int(power)}" if mark else "")).replace("-", _MINUS)
 
 

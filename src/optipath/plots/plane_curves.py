@@ -120,8 +120,7 @@ def _sides(
 
     def choices(measured: Any) -> int:
         """Return whether something was measured at no wavelength, at one, or at several, 2."""
-        lengths = getattr(measured, "wavelengths", np.nan)
-        return min(int(np.isfinite(lengths).sum()), 2)
+        return min(int(np.isfinite(getattr(measured, "wavelengths", np.nan)).sum()), 2)
 
     most, results = max(map(choices, several.values())), {}
     for name, each in several.items():

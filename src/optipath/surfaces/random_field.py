@@ -130,8 +130,7 @@ def warn_of_coarse(alpha: Pair, size: Pair, cells: tuple[int, int]) -> None:
         f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and light of several events"
     )
     ways = f"cells={enough}", f"--cells {','.join(map(str, enough))}"
-    cure = Cure.of("{} are enough".format, *ways)
-    warn(Fault(why, cure), MeshWarning)
+    warn(Fault(why, Cure.of("{} are enough".format, *ways)), MeshWarning)
 
 
 _GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0

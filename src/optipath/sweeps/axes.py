@@ -242,8 +242,7 @@ def _axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> lis
                 # As if there were no other parameters.
                 own: dict[str, Any] = {"open": {name: inputs.open[name]}, "uses": uses}
                 own |= dict.fromkeys(("known", "agreements", "for_complex", "computed"), ())
-                alone = replace(inputs, shapes={}, **own)
-                alone.resolve({name: value})
+                replace(inputs, shapes={}, **own).resolve({name: value})
     return faults
 
 

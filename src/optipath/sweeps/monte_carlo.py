@@ -60,8 +60,7 @@ def spread_of_samples(
         for each in light_at.uncertain
         if outside[each.name]
     ]
-    figures = figures_of(light)
-    notes += notes_of_lost_figures(~np.isnan(figures) & np.isnan(deviation))
+    notes += notes_of_lost_figures(~np.isnan(figures_of(light)) & np.isnan(deviation))
     spread = Spread(moments.covariance, deviation, shares)
     return spread, np.asarray(light.stokes) + moments.mean[..., :STOKES], notes
 

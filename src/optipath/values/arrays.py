@@ -255,8 +255,7 @@ class Unchanging:
         raise AttributeError(f"a {kind} cannot change; make a new one instead of setting '{name}'")
 
     def __delattr__(self, name: str) -> None:
-        kind = type(self).__name__
-        raise AttributeError(f"a {kind} cannot change; '{name}' stays")
+        raise AttributeError(f"a {type(self).__name__} cannot change; '{name}' stays")
 
     def __setstate__(self, own: dict[str, Any]) -> None:
         # NumPy's own copies and pickles can be written to.

@@ -209,8 +209,7 @@ def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
     way = ends[1] - ends[0]
     if np.linalg.norm(way) > 0.1 * scene.unit:
         tip = ends[0] + (1.0 if ray.leaves else _ARROW_AT) * way
-        size = scene.unit * np.array(_ARROW)
-        draw_head(ax, tip, way, size, fc=colour, zorder=4.2)
+        draw_head(ax, tip, way, scene.unit * np.array(_ARROW), fc=colour, zorder=4.2)
     if _has_ellipse(ray):
         curve = view.points((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
         _line(ax, curve, color=ELLIPSE, lw=1.4, zorder=5.0)
