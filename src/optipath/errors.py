@@ -59,7 +59,7 @@ class OptipathError(Exception):
 
     @classmethod
     @contextmanager
-    def collecting(cls, faults: list[str], about: str = "") -> Iterator[None]:
+    def collecting(cls, faults: list[str], about: str = "", **parts: Any) -> Iterator[None]:
         """Keep the faults of what goes wrong inside, each under what it is about, and go on.
 
         Parameters
@@ -68,6 +68,8 @@ class OptipathError(Exception):
             Where they are kept.
         about : str, optional
             What is in front of each.
+        **parts : str
+            As `Fault.but` takes them, such as ``subject="n"``.
 
         Yields
         ------
@@ -84,12 +86,23 @@ class OptipathError(Exception):
         try:
             yield
         except cls as result:
-            faults += [fault.under(about) for fault in result.faults]
+            faults += [fault.under(about).but(**parts) for fault in result.faults]
 
     @classmethod
     @contextmanager
-    def wrapping(cls, about: str = "") -> Iterator[None]:
+    def wrapping(cls, about: str = "", **parts: Any) -> Iterator[None]:
         """Raise what goes wrong inside as this error, under what it is about, or as it is.
+
+        Parameters
+        ----------
+        about : str, optional
+            What is in front of each fault.
+        **parts : str
+            As `collecting` takes them.
+
+        Yields
+        ------
+        None
 
         Examples
         --------
@@ -101,7 +114,8 @@ class OptipathError(Exception):
         try:
             yield
         except OptipathError as result:
-            raise cls(*[fault.under(about or result.about) for fault in result.faults]) from None
+            under = [fault.under(about or result.about) for fault in result.faults]
+            raise cls(*[fault.but(**parts) for fault in under]) from None
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its faults are what it is.

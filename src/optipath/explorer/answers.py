@@ -103,11 +103,9 @@ class PageAnswers:
 def _table(state: ReadState, curve: RequestedCurve | None) -> str:
     """Return what `optipath sweep --out` writes of the curve; without one, the light as a row."""
     plan = state.explored.plan
-    try:
+    with ParameterError.wrapping(subject="curve"):
         grid = SweepGrid((), state.values) if curve is None else curve_grid(state, curve)
         return "".join(csv_parts(plan, grid))
-    except OptipathError as error:
-        raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
 
 
 _PRINTED = """\

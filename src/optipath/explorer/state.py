@@ -260,15 +260,13 @@ def _value(
         faults.append(unknown_parameter(name, known))
         return None
     parameter = known.get(name, WAVELENGTH)
-    try:
+    with OptipathError.collecting(faults, subject=name):
         if not is_material(parameter, text, explored.uses):
             return single_text(explored, parameter, text)
         k = extinction_with(explored.uses, name)
         own = single_text(explored, known[k], arguments[k]) if k in arguments else None
         return material_named(name, text, own)
-    except OptipathError as error:
-        faults += [each.but(subject=name) for each in error.faults]
-        return None
+    return None
 
 
 def single_text(explored: ExploredPath, parameter: Parameter, text: str) -> Any:

@@ -158,11 +158,9 @@ _SEVERAL = ":,@"
 
 def curve_as_json(state: ReadState, request: RequestedCurve, detector: str) -> dict[str, Any]:
     """Return a curve for the page."""
-    try:
+    with ParameterError.wrapping(subject="curve"):
         grid = curve_grid(state, request)
         lines = _lines(state.explored.plan, grid, request.y, detector)
-    except OptipathError as error:
-        raise ParameterError(*(each.but(subject="curve") for each in error.faults)) from None
     (axis,) = grid.axes
     return {
         "x": axis.shown.tolist(),

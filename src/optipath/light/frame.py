@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import FrameError, ShapeError
+from optipath.errors import FrameError
 from optipath.faults import shown
 from optipath.kernels.catalog import ALIGN
 from optipath.kernels.double_double import DoubleDouble
@@ -73,10 +73,8 @@ class Frame(Unchanging):
             )
         named = {"x": x, "y": y, "z": z}
         read = {name: vectors(f"axis {name} of a frame", axis) for name, axis in named.items()}
-        try:
+        with FrameError.wrapping("axes of a frame"):
             check_broadcast({name: axis.shape[:-1] for name, (axis, _) in read.items()})
-        except ShapeError as fault:
-            raise FrameError(f"axes of a frame: {fault}") from None
         axes, roundings = zip(*read.values(), strict=True)
         rounding = max(float(rounding), *roundings)
         x, y, z = np.broadcast_arrays(*axes)

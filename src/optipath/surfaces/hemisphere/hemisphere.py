@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.elements.mueller_element import MuellerElement
-from optipath.errors import OptipathError, PhotonWarning, SurfaceError, ValueFault
+from optipath.errors import PhotonWarning, SurfaceError, ValueFault
 from optipath.faults import shown, unknown
 from optipath.kernels.facets import MASKINGS
 from optipath.light.frame import Frame
@@ -643,7 +643,7 @@ def _missing(what: str, kind: str) -> str:
 
 def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
     """Return the frame of light toward a direction, or several (..., 3)."""
-    try:
+    with SurfaceError.wrapping():
         entries = np.asarray(argument, dtype=object)
         # An angle, or several as texts; numbers in a row are a vector.
         if entries.ndim == 0 or isinstance(next(entries.flat, None), str):
@@ -660,18 +660,14 @@ def direction_of(argument: Any, azimuth: float, *, up: bool) -> Frame:
             parts = [sin * np.cos(azimuth), sin * np.sin(azimuth), height]
             argument = np.stack(parts, axis=-1) + 0.0
         return frame_along("direction", argument, up=up)
-    except OptipathError as fault:
-        raise SurfaceError(*fault.faults) from None
 
 
 def wavelength_place(known: Numbers, argument: Any) -> int:
     """Return the place of a wavelength among measured ones, in metres."""
     if argument is None and len(known) == 1:
         return 0
-    try:
+    with SurfaceError.wrapping():
         wanted = np.ravel(np.nan if argument is None else Wavelength().resolve(argument).value)
-    except OptipathError as fault:
-        raise SurfaceError(*fault.faults) from None
     nearest = int(np.argmin(np.abs(known - wanted[0]))) if wanted.size == 1 else 0
     if wanted.size != 1 or not abs(known[nearest] - wanted[0]) <= _SAME * wanted[0]:
         several = " or ".join(format_quantity(float(each), "nm") for each in known)
