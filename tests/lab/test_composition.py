@@ -12,7 +12,7 @@ from optipath.engines.numpy_engine import NumpyEngine
 from optipath.lab import composition
 from optipath.lab.bench import Timing, random_values
 from optipath.lab.composition import LIGHT, MATRIX, Rates, measured, mixed_path, walked
-from optipath.plots.throughput import throughput
+from optipath.plots.charts import throughput
 from pictures import faults_of, texts_of
 from tables import slow_except
 

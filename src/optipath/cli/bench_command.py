@@ -88,7 +88,7 @@ def _measure(
             PlainConsole().print(_table(path, several))
         say(", ".join(f"{name} {number}" for name, number in about.items()))
     if out is not None:
-        from optipath.plots.throughput import throughput  # noqa: PLC0415 - an extra
+        from optipath.plots.charts import throughput  # noqa: PLC0415 - an extra
 
         plots.save(throughput(rates), out)
         say(f"wrote {out}", err=as_json)
