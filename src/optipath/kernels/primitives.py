@@ -34,6 +34,7 @@ class Primitives:
     two_product: Callable[[Any, Any], tuple[Any, Any]]
     below_rounding: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
+    multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
     integer: Callable[[Any], Any] = int
     apart: Callable[[Any], Any] = lambda function: function
     within: float = 0.0
