@@ -396,7 +396,7 @@ def with_followed(graph: nx.MultiDiGraph) -> tuple[nx.MultiDiGraph, list[str]]:
         # An incidence comes with the medium in which it is measured.
         result.graph[FOLLOWING][name] = (*fields, *["incidence_in"] * ("incidence" in fields))
         if not faults[name]:
-            result.nodes[name]["element"] = taking.elements[name]
+            dict.update(result.nodes[name], element=taking.elements[name])
     messages = [fault for several in faults.values() for fault in several]
     if not messages:
         takes = "takes over (FOLLOWS) what those before it take over; give it at one of them"

@@ -49,7 +49,7 @@ LINK_VALUES = {
 """The numbers that a link may have."""
 
 
-def completed(graph: Any) -> nx.MultiDiGraph:
+def completed(graph: Any, graph_class: type[nx.MultiDiGraph] = nx.MultiDiGraph) -> nx.MultiDiGraph:
     """Return a graph as the composer reads it, or raise with all that is wrong.
 
     Links are keyed by (out-port, in-port). Attributes of other names stay as they are.
@@ -59,13 +59,13 @@ def completed(graph: Any) -> nx.MultiDiGraph:
     if not graph.is_directed():
         raise PathError(f"a networkx {type(graph).__name__} has no directions; {_CURE}")
     faults = [*_misspelt("the graph", graph.graph, _WHOLE), *_name_faults([*graph])]
-    result = nx.MultiDiGraph()
+    result = graph_class()
     result.graph.update({**graph.graph, **whole(graph.graph, faults)})
     for name, about in graph.nodes.items():
         if len(about) > 1 or not isinstance(about.get("element"), Element):
             faults += _node_faults(name, about)
         given = about.get("frames")
-        frames = dict(given) if isinstance(given, Mapping) else {}
+        frames = result.node_attr_dict_factory(given if isinstance(given, Mapping) else ())
         result.add_nodes_from([(name, {**about, "frames": frames})])
     _add_links(graph, result, faults)
     PathError.raise_for(faults)
@@ -150,7 +150,7 @@ def _is_unset(value: Any) -> bool:
 def _said(about: Mapping[Any, Any], known: Collection[str]) -> dict[Any, Any]:
     """Return attributes without those of known names that say nothing."""
     return {
-        name: dict(one) if type(one) is dict else one
+        name: one.copy() if isinstance(one, dict) else one
         for name, one in about.items()
         if name not in known or not _is_unset(one)
     }
@@ -204,13 +204,15 @@ def _add_links(graph: nx.DiGraph, result: nx.MultiDiGraph, faults: list[str]) ->
         out_port = _port_of(elements.get(start), edge, leaves, faults, out=True)
         in_port = _port_of(elements.get(end), edge, enters, faults, out=False)
         link = start, end, (out_port, in_port)
-        if several and out_port and in_port and result.has_edge(*link):
+        is_new = not several or not result.has_edge(*link)
+        if not is_new and out_port and in_port:
             faults.append(f"link '{link_text(link)}' is there already; remove the second one")
-        if about.keys() <= _PORTS:
-            result.add_edge(*link, azimuth=None, tap=False)
-        else:
+        if not about.keys() <= _PORTS:
             said = {**about, "out_port": leaves, "in_port": enters}
-            result.add_edges_from([(*link, _others(link, edge, said, faults))])
+            others = _others(link, edge, said, faults)
+            result.add_edges_from([(*link, others)] if is_new else ())
+        elif is_new:
+            result.add_edge(*link, azimuth=None, tap=False)
 
 
 def _others(

@@ -174,9 +174,11 @@ def exchanged(known: Values, values: Mapping[str, Any]) -> Values:
         # Of equal elements, uses name the first.
         made = {id(e): _with_other_fields(e, values) for e in map(known.alike.get, owners)}
     for name, node in copy.nodes.items():
-        node["element"] = made.get(id(known.alike[name]), node["element"])
-    for link in copy.edges.values():
-        link["azimuth"] = _exchanged(link["azimuth"], values)
+        if (element := made.get(id(known.alike[name]))) is not None:
+            dict.update(node, element=element)
+    for *_, link in copy.edges(data=True):
+        if link["azimuth"] is not None:
+            dict.update(link, azimuth=_exchanged(link["azimuth"], values))
     return Values(copy)
 
 

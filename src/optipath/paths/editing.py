@@ -22,6 +22,7 @@ from optipath.elements.element import Element, natural_of
 from optipath.elements.frame_checks import azimuth_at
 from optipath.errors import OptipathError, PathError
 from optipath.faults import did_you_mean, listed, shown, there_are
+from optipath.paths.element_graph import Attributes
 from optipath.values.arrays import changed, joint_shape, read_only, same
 from optipath.values.parameters import Parameter
 
@@ -170,7 +171,7 @@ def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any) -> None:
         turns = f"by {turn_text(before)} and by {turn_text(turn)}, and no one azimuth does for both"
         raise PathError(f"'{link[1]}' would be turned {turns}") from None
     _give_azimuth_to_links(graph, link)
-    graph.edges[link]["azimuth"] = None if is_zero(total) else total
+    dict.update(graph.edges[link], azimuth=None if is_zero(total) else total)
 
 
 def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
@@ -221,8 +222,8 @@ def _give_azimuth_to_links(graph: nx.MultiDiGraph, link: Link) -> None:
     links = [one for one in unsaid if not is_zero(azimuth_of(wiring, one))]
     if link in links:
         for one in links:
-            graph.edges[one]["azimuth"] = azimuth_of(wiring, one)
-        node["element"] = dataclasses.replace(node["element"], azimuth=0.0)
+            dict.update(graph.edges[one], azimuth=azimuth_of(wiring, one))
+        dict.update(node, element=dataclasses.replace(node["element"], azimuth=0.0))
 
 
 def _sum(first: Any, second: Any) -> Any:
@@ -330,7 +331,7 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
     check_element(name, element)
     frames = {} if frames is None else frames
     PathError.raise_for(frames_faults(name, element, frames))
-    graph.add_node(name, element=element, frames=dict(frames))
+    graph.add_node(name, element=element, frames=Attributes(frames))
 
 
 def connect(
@@ -443,7 +444,7 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
             turns = f"turns '{name}' by {turn_text(azimuth)}, and the new one by {turn_text(turn)}"
             cure = "leave its azimuth out to have it turned as the old one is"
             raise PathError(f"link '{link_text(link)}' {turns}; {cure}")
-        graph.edges[link]["azimuth"] = None
+        dict.update(graph.edges[link], azimuth=None)
     if not twice and old.straight and element.straight:
         # World frames say how it stands; else, what is behind it stays as it was turned.
         behind = [] if graph.nodes[name]["frames"] else graph.out_edges(name, keys=True)
@@ -456,7 +457,7 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
             why = f"'{name}' is turned by its azimuth {turn_text(_own_turn(old))}"
             cure = "give it that azimuth, or connect its link anew with azimuth=0.0"
             raise PathError(f"{why}, and the new element is not; {cure}")
-    graph.nodes[name]["element"] = element
+    dict.update(graph.nodes[name], element=element)
 
 
 def reading(graph: nx.MultiDiGraph, reads: str) -> nx.MultiDiGraph:
@@ -464,7 +465,7 @@ def reading(graph: nx.MultiDiGraph, reads: str) -> nx.MultiDiGraph:
     result = graph.copy()
     for node in result.nodes.values():
         if hasattr(node["element"], "reads"):
-            node["element"] = dataclasses.replace(node["element"], reads=reads)
+            dict.update(node, element=dataclasses.replace(node["element"], reads=reads))
     return result
 
 

@@ -8,10 +8,9 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
-import networkx as nx
-
 from optipath.errors import PathError
 from optipath.paths.editing import join, open_port
+from optipath.paths.element_graph import ElementGraph
 
 if TYPE_CHECKING:
     from optipath.composer.wiring import Port
@@ -27,7 +26,7 @@ class GrowingGraph:
     the path in front keeps the beginning, and copies that when it is read.
     """
 
-    def __init__(self, graph: nx.MultiDiGraph[str], *, may_grow: bool = False) -> None:
+    def __init__(self, graph: ElementGraph, *, may_grow: bool = False) -> None:
         self._graph = graph
         # Not where somebody may be reading it.
         self._may_grow = may_grow
@@ -41,7 +40,7 @@ class GrowingGraph:
         with _LOCK:
             return self._beginning[0] if self._beginning else len(self._graph)
 
-    def read(self) -> nx.MultiDiGraph[str]:
+    def read(self) -> ElementGraph:
         """Return the graph, to be read at any time and not to be changed."""
         with _LOCK:
             self._may_grow = False
@@ -49,7 +48,7 @@ class GrowingGraph:
                 self._graph, self._beginning, self._sharers = self._copy(), None, None
             return self._graph
 
-    def change(self) -> nx.MultiDiGraph[str]:
+    def change(self) -> ElementGraph:
         """Return the graph for a change in place, which no other path sees."""
         with _LOCK:
             graph, self._open_end = self.read(), None
@@ -74,10 +73,10 @@ class GrowingGraph:
             result._open_end = names[end[0]], end[1]
         return result, names
 
-    def _copy(self) -> nx.MultiDiGraph[str]:
+    def _copy(self) -> ElementGraph:
         count, about = self._beginning or (None, self._graph.graph)
         first = dict(islice(self._graph.nodes.items(), count))
-        result = nx.MultiDiGraph()
+        result = ElementGraph()
         result.graph.update(about)
         result.add_nodes_from(first.items())
         links = self._graph.edges(first, keys=True, data=True)
@@ -91,5 +90,5 @@ class GrowingGraph:
                 self._open_end = open_port(self.read(), out=True)
         return self._open_end
 
-    def __reduce__(self) -> tuple[type[GrowingGraph], tuple[nx.MultiDiGraph[str]]]:
+    def __reduce__(self) -> tuple[type[GrowingGraph], tuple[ElementGraph]]:
         return GrowingGraph, (self.read(),)

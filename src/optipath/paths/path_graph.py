@@ -6,8 +6,6 @@ from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, Never, Self, overload
 
-import networkx as nx
-
 from optipath.composer.composer import Composer, checked, put_off
 from optipath.composer.path_values import Values
 from optipath.composer.plain_graph import completed, plain, whole
@@ -28,6 +26,7 @@ from optipath.paths.binding import (
     with_arguments,
 )
 from optipath.paths.drawing import with_texts
+from optipath.paths.element_graph import ElementGraph
 from optipath.paths.growing_graph import GrowingGraph
 from optipath.paths.node import Node
 from optipath.paths.reversed import reversed_cases, reversed_graph
@@ -38,6 +37,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
     from os import PathLike
 
+    import networkx as nx
     import xarray as xr
     from networkx.classes.reportviews import NodeView, OutMultiEdgeView
 
@@ -100,7 +100,7 @@ class PathGraph(Chainable):
         PathError.raise_for(faults)
         self.description: str = about.pop("description")
         self.cases: dict[str, Case] = dict(about.pop("cases"))
-        self._growing = GrowingGraph(nx.MultiDiGraph(**about))
+        self._growing = GrowingGraph(ElementGraph(**about))
         # What the graph has been composed to, until it changes.
         self._plans: dict[str | Composer, Plan] = {}
 
@@ -132,7 +132,7 @@ class PathGraph(Chainable):
         <PathGraph: lamp >> filter >> eye>
         """
         with put_off():
-            own = completed(graph)
+            own = completed(graph, ElementGraph)
         path = cls(own.graph.pop("description"), own.graph.pop("cases"))
         path._growing, own.graph["choices"] = GrowingGraph(own), dict(own.graph["choices"])
         check_choices(own)
@@ -140,22 +140,22 @@ class PathGraph(Chainable):
 
     @property
     def graph(self) -> nx.MultiDiGraph[str]:
-        """The networkx graph, to query and not to change.
+        """The networkx graph, to query; `to_networkx` gives one to change.
 
         Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
         and carry ``azimuth`` and ``tap``.
         """
-        return self._graph.copy(as_view=True)
+        return self._graph.view()
 
     @property
     def nodes(self) -> NodeView[str]:
-        """The nodes as networkx has them, ``path.nodes["X1"]["element"]``; not to be changed."""
-        return self.graph.nodes
+        """The nodes as networkx has them, ``path.nodes["X1"]["element"]``; to be read."""
+        return self._graph.nodes
 
     @property
     def edges(self) -> OutMultiEdgeView[str]:
-        """The links as networkx has them, keyed as in `graph`; not to be changed."""
-        return self.graph.edges
+        """The links as networkx has them, keyed as in `graph`; to be read."""
+        return self._graph.edges
 
     def to_networkx(self, *, text: bool = False) -> nx.MultiDiGraph[str]:
         """Return a plain networkx graph of the path, which is a copy and anybody's to change.
@@ -585,13 +585,11 @@ class PathGraph(Chainable):
         Parameters
         ----------
         keep : {"ends", "all"}, optional
-            With ``"all"``, the light at every end, on every link, such as
-            ``"lamp.out -> eye.in"``, and at every outlet, such as ``"glass.transmitted"``, by
-            name, each in the frame in which it leaves its element. A path with an open
-            parameter called ``keep`` takes it for that; compose it by ``Composer(keep="all")``.
+            With ``"all"``, the light at every end, link and outlet by name, as `Composer` has it.
+            A path with an open parameter called ``keep`` takes it for that.
         *unnamed, **parameters : float or array_like
-            By name, the values of open parameters. Those that JAX traces cannot be refused: light
-            is NaN where they are outside their domain.
+            By name, the values of open parameters; of those that JAX traces, light is NaN where
+            they are outside their domain.
 
         Returns
         -------
@@ -734,8 +732,7 @@ class PathGraph(Chainable):
             The variables are Dask arrays of so many values along each dimension; ``"auto"`` for
             blocks of about a million.
         store : str or PathLike, optional
-            A Zarr store (``.zarr``) or a NetCDF file (``.nc``) that is written block by block; a
-            Zarr store goes on where it stopped.
+            A Zarr store (``.zarr``), which goes on where it stopped, or a NetCDF file (``.nc``).
         scheduler : str or distributed.Client, optional
             What computes the blocks: ``"threads"``, ``"processes"``, ``"synchronous"``, a client,
             or the address of a cluster.
@@ -832,21 +829,18 @@ class PathGraph(Chainable):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PathGraph):
             return NotImplemented
-        message, also = ((path.description, path.cases, path.choices) for path in (self, other))
-        mine, theirs = self._graph, other._graph
-        return (
-            message == also
-            and self.loops == other.loops
-            and same(dict(mine.nodes.items()), dict(theirs.nodes.items()))
-            and same(dict(mine.edges.items()), dict(theirs.edges.items()))
+        mine, theirs = (
+            (p.description, p.cases, p.choices, p.loops, dict(p.nodes), dict(p.edges.items()))
+            for p in (self, other)
         )
+        return same(mine, theirs)
 
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         if chain := editing.as_chain(self._graph):
             return f"<{type(self).__name__}: {' >> '.join(chain)}>"
-        nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
+        nodes, links = len(self), self._graph.number_of_edges()
         return f"<{type(self).__name__} with {nodes} nodes and {links} links>"
 
     @cached_property
@@ -855,11 +849,11 @@ class PathGraph(Chainable):
         return Values(self._graph)
 
     @property
-    def _graph(self) -> nx.MultiDiGraph[str]:
+    def _graph(self) -> ElementGraph:
         """The graph, to be read."""
         return self._growing.read()
 
-    def _changing(self) -> nx.MultiDiGraph[str]:
+    def _changing(self) -> ElementGraph:
         """Return the graph for a change, and forget what followed from it."""
         self._plans.clear()
         vars(self).pop("_values", None)
@@ -869,12 +863,13 @@ class PathGraph(Chainable):
         """Add other elements behind a port, and return the name of the last of them."""
         return editing.append(self._changing(), port, others._graph)
 
-    def _with(self, graph: nx.MultiDiGraph[str] | GrowingGraph | Values) -> Self:
+    def _with(self, graph: ElementGraph | GrowingGraph | Values) -> Self:
         """Return a path like this one with another graph, or one whose values are known."""
         path = type(self)(self.description, self.cases)
         if isinstance(graph, Values):
-            path._values, graph = graph, graph.graph  # noqa: SLF001 - its own
-        path._growing = graph if isinstance(graph, GrowingGraph) else GrowingGraph(graph)  # noqa: SLF001
+            path._values, path._growing = graph, GrowingGraph(graph.graph)  # noqa: SLF001
+        else:
+            path._growing = graph if isinstance(graph, GrowingGraph) else GrowingGraph(graph)  # noqa: SLF001
         return path
 
     def _with_curves(self, parameters: dict[str, Any]) -> PathGraph | None:

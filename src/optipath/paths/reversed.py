@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import networkx as nx
 import numpy as np
 
 from optipath.composer.media import with_followed
@@ -21,10 +20,13 @@ from optipath.errors import OptipathError, PathError
 from optipath.faults import did_you_mean, listed, shown, there_are
 from optipath.kernels.kernel import called
 from optipath.paths.editing import find_port
+from optipath.paths.element_graph import Attributes, ElementGraph
 from optipath.values.arrays import changed, same
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Container, Iterable, Iterator
+
+    import networkx as nx
 
     from optipath.composer.wiring import Link, Port
     from optipath.light.frame import Frame
@@ -36,7 +38,7 @@ _SAME = 1e-9
 """Up to what angle two frames of a vertex are one."""
 
 
-def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGraph:
+def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> ElementGraph:
     """Return a graph of elements in which light goes the other way."""
     filled, faults = with_followed(graph)
     PathError.raise_for(faults)
@@ -45,10 +47,11 @@ def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGrap
     turning.reverse_elements(sources)
     PathError.raise_for([*faults, *turning.faults, *turning.link_faults()])
     choices = reversed_choices(turning.wiring, turning.port)
-    result = nx.MultiDiGraph()
+    result = ElementGraph()
     result.graph.update(graph.graph, choices=choices)
     for name in [*graph][::-1]:
-        result.add_node(name, element=turning.elements[name], frames=turning.frames(name))
+        frames = Attributes(turning.frames(name))
+        result.add_node(name, element=turning.elements[name], frames=frames)
     for link in [*graph.edges(keys=True)][::-1]:
         start, end, (leaves, enters) = link
         key = turning.port(end, enters), turning.port(start, leaves)
