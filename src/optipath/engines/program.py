@@ -22,7 +22,6 @@ from optipath.kernels.carriers.intensities import IntensityCarrier
 from optipath.kernels.carriers.structures import FULL, SCALE
 from optipath.kernels.linear_solve import Elimination, is_zero
 from optipath.kernels.primitives import not_above_rounding
-from optipath.values.operands import Operation, ResultOf
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -103,25 +102,6 @@ class Program:
         return self.counts[light] if self.counts else 4
 
     @cached_property
-    def operations(self) -> tuple[Operation, ...]:
-        """The evaluations as operations of operands."""
-        results: list[Operation] = []
-        for evaluation in self.evaluations:
-            arguments = [
-                ResultOf(results[argument.evaluation], argument.place)
-                if type(argument) is Result
-                else self.operands[argument]  # type: ignore[index]
-                for argument in evaluation.arguments
-            ]
-            results.append(Operation(evaluation.kernel, tuple(arguments)))
-        return tuple(results)
-
-    def presence(self, evaluation: int) -> Operand | None:
-        """Return the operand that says where the element of an evaluation is there at all."""
-        place = self.evaluations[evaluation].presence
-        return None if place is None else self.operands[place]
-
-    @cached_property
     def takes(self) -> tuple[tuple[int, ...], ...]:
         """The evaluations whose results each evaluation is given."""
         results = ([a for a in e.arguments if type(a) is Result] for e in self.evaluations)
@@ -179,15 +159,6 @@ class Program:
             if index is not None and self.evaluations[index].kernel.structure == FULL:
                 results[index] = (*results.get(index, ()), step.label.rpartition(".")[0])
         return results
-
-    def stretches(self) -> Iterator[tuple[range, Loop | None]]:
-        """Yield the steps in order, those of a loop together and with it."""
-        done = 0
-        for loop in self.loops:
-            yield range(done, loop.start), None
-            yield range(loop.start, loop.stop), loop
-            done = loop.stop
-        yield range(done, len(self.steps)), None
 
     @cached_property
     def used_by(self) -> tuple[tuple[int, ...], ...]:
