@@ -45,7 +45,8 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     >>> [float(component) for component in lights["eye"].stokes]
     [0.5, 0.5, 0.0, 0.0]
     """
-    return _exact(_wiring(path.graph), _single(path, parameters), (), ())
+    argument = _single(path, parameters)
+    return _exact(_wiring(path.graph), argument, (), ())
 
 
 def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
