@@ -670,6 +670,9 @@ def test_lengths_of_links_stay_in_all_that_is_made_of_a_path(tmp_path):
     chain.connect("film", "eye", length="2 m")
     assert lengths(chain.reversed()) == [2.0, 1.0]
     assert lengths(op.PathGraph() >> chain) == [1.0, 2.0]
+    pair = wired({"film": op.Polarizer(), "plate": op.Retarder(0.3)}, "")
+    pair.connect("film", "plate", length=0.5)
+    assert lengths(op.there_and_back(pair, op.Mirror())) == [0.5, None, None, 0.5]
 
 
 def test_what_is_inserted_stands_at_the_port_that_is_named_and_what_is_removed_leaves_the_sum():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from optipath.composer.placement import is_zero
+from optipath.composer.plain_graph import LINK_VALUES
 from optipath.elements.coupling import vanishes
 from optipath.elements.element import Chainable, begun, natural_of
 from optipath.elements.frame_checks import azimuth_at
@@ -75,9 +76,10 @@ def _doubled(there: PathGraph, last: PathGraph) -> PathGraph:
     for name in back:
         element = back.element(name)
         names[name] = next_by_kind(name, element, path) or f"{name}-back"
-        path.add(names[name], element, back.graph.nodes[name]["frames"])
-    for start, end, (leaves, enters), azimuth in back.graph.edges(keys=True, data="azimuth"):
-        path.connect(f"{names[start]}.{leaves}", f"{names[end]}.{enters}", azimuth)
+        path.add(names[name], element, back.nodes[name]["frames"])
+    for (start, end, (leaves, enters)), about in back.edges.items():
+        said = {name: about.get(name) for name in LINK_VALUES}
+        path.connect(f"{names[start]}.{leaves}", f"{names[end]}.{enters}", **said)
     ((before, _, (leaves, _)),) = path.graph.in_edges(turning, keys=True)
     arrives = f"{names[before]}.{path.element(before).port_back(leaves)}"
     azimuth = azimuth_at(path.element(turning), "in")

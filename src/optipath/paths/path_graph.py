@@ -143,7 +143,7 @@ class PathGraph(Chainable):
         """The networkx graph, to query; `to_networkx` gives one to change.
 
         Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
-        and carry ``azimuth`` and ``tap``.
+        and carry ``azimuth``, ``tap`` and perhaps ``length``.
         """
         return self._graph.view()
 
