@@ -276,8 +276,12 @@ class Element(Chainable):
         if self._is_sound and _PLAIN.issuperset(map(type, vars(self).values())):
             return []  # Nothing of it is given later, or has a shape.
         sound, plain = self._is_sound, _PLAIN if self._is_sound else ()
-        every = [each for each in self.quantities() if type(each[1]) not in plain]
-        return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in every]
+        return [
+            Use(f"{owner}.{name}", value, of, sound)
+            for name, value, of in self.quantities()
+            # A Material may be given for an open n beside a k that is known.
+            if type(value) not in plain or name.endswith((".n", ".k"))
+        ]
 
     def agreements(self, owner: str) -> Iterable[Agreement]:
         """Return what must fit of the values, known or given when the path runs."""
