@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
+from bisect import bisect_left
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -145,19 +146,16 @@ def next_by_kind(name: str, element: Element, *taken: Container[str]) -> str:
     kind = name_by_kind(element)
     if not re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name):
         return ""
+
+    def is_free(number: int) -> bool:
+        return not any(f"{kind}-{number}" in names for names in taken)
+
     # In few steps, as a long chain has many of a kind: one that is free, and taken just before.
-
-    def is_taken(number: int) -> bool:
-        return any(f"{kind}-{number}" in names for names in taken)
-
     free = 2
-    while is_taken(free):
+    while not is_free(free):
         free *= 2
-    last = free // 2
-    while free - last > 1:
-        middle = (last + free) // 2
-        last, free = (middle, free) if is_taken(middle) else (last, middle)
-    return f"{kind}-{free}"
+    first = bisect_left(range(free), x=True, lo=free // 2 + 1, key=is_free)
+    return f"{kind}-{first}"
 
 
 def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any) -> None:
