@@ -50,7 +50,7 @@ def test_each_pass_by_itself_leaves_the_lights_equal(one):
         plan = op.Composer(model="full").compose(path)
         flow = Flow(plan.draft)
         told += len(one(flow))
-        program = flow.drafted().program
+        program = flow.program()
         reduction = replace(plan.reduction, program=program, unreduced=False)
         found = replace(plan, reduction=reduction).run_all(**draw.values)
         assert_equal_lights(found, plan.run_all(**draw.values), path, seed)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.engines.draft import Draft
+from optipath.engines.draft import SharedSteps
 from optipath.kernels.kernel import Entry
 from optipath.kernels.primitives import FLOAT, FLOAT_ARRAYS, is_below_rounding
 from optipath.values.operands import Operand, ResultOf
@@ -24,7 +24,8 @@ if TYPE_CHECKING:
     from collections.abc import Hashable, Iterable, Iterator, Sequence
     from collections.abc import Set as AbstractSet
 
-    from optipath.engines.draft import DraftStep
+    from optipath.engines.draft import Draft, DraftStep
+    from optipath.engines.program import Program
     from optipath.kernels.carriers.structures import Structure
     from optipath.kernels.kernel import Kernel
     from optipath.kernels.primitives import KernelFunction
@@ -128,28 +129,29 @@ class Flow:
         """The nodes that have items."""
         return (node for node in self.nodes if node.items)
 
-    def drafted(self) -> Draft:
-        """Return the draft that has been made of it."""
-        draft = Draft()
+    def program(self) -> Program:
+        """Return the program that has been made of the draft."""
+        made = SharedSteps()
         for node in self.order:
             if isinstance(node, tuple):
-                draft.close({at.light: [each.light for each in at.inputs] for at in node})
+                made.close({at.light: [each.light for each in at.inputs] for at in node})
             elif node.source is not None:
-                node.light = draft.step(node.source.label, (), node.source.operation)
+                node.light = made.step(node.source.label, (), node.source.operation)
             elif node.label:
                 inputs = [] if node.is_junction else node.inputs
-                node.light = draft.sum(node.label, [each.light for each in inputs])
+                node.light = made.sum(node.label, [each.light for each in inputs])
             else:
                 light = node.inputs[0].light
                 for item in node.items:
-                    light = draft.step(item.label, (light,), item.operation, item.presence)
+                    light = made.step(item.label, (light,), item.operation, item.presence)
                 node.light = light
+        ends: dict[str, Any] = {}
         for which in ENDS:
-            ends = self.draft.ends[which].items()
-            draft.ends[which] = {n: replace(r, light=self._light_of(r.light)) for n, r in ends}
+            readings = self.draft.ends[which].items()
+            ends[which] = {n: replace(r, light=self._light_of(r.light)) for n, r in readings}
         sources = self.draft.ends["sources"].items()
-        draft.ends["sources"] = {n: (self._light_of(at), frame) for n, (at, frame) in sources}
-        return draft
+        ends["sources"] = {n: (self._light_of(at), frame) for n, (at, frame) in sources}
+        return made.program(ends)
 
     def live(self, *, changed: bool) -> tuple[tuple[int, ...], ...]:
         """Return for each light the components that are alive, of the draft it is, or was."""

@@ -130,7 +130,7 @@ class Values:
         """The batch shapes of arrays and frames that are known, by owner."""
         known = [(use, numbers) for use, numbers in self._known if type(numbers) is not float]
         shapes = {_named(use): use.batch_shape(numbers) for use, numbers in known}
-        for name, frames in self.graph.nodes(data="frames"):
+        for name, frames in self.wiring.framed.items():
             shapes |= {f"frame of {name}.{port}": f.z.shape[:-1] for port, f in frames.items()}
         return {owner: shape for owner, shape in shapes.items() if shape}
 

@@ -96,7 +96,7 @@ def reduced(whole: Draft, model: str, composing: str, dtype: str) -> Reduction:
             break
     if not flow.is_looked_at:
         find_alive(flow)
-    program = (flow.drafted() if notes else whole).program
+    program = flow.program() if notes else whole.program
     program = replace(program, live=flow.live(changed=bool(notes)))
     folded = tuple(dict.fromkeys(notes))
     if passes and composing == "stokes":
@@ -134,7 +134,8 @@ def _reason(program: Program, size: int) -> str:
     """Return why as many components are needed."""
     if size == 1:
         return "S1, S2 and S3 are 0, or nobody needs them"
-    names = [f"S{i}" for i in range(4) if any(i in alive for alive in program.live)]
+    alive = {i for several in {*program.live} for i in several}
+    names = [f"S{i}" for i in range(4) if i in alive]
     dead = [f"S{i}" for i in range(4) if f"S{i}" not in names]
     return f"{listed(names)} are alive" + (f", {listed(dead)} nowhere" if dead else "")
 

@@ -67,7 +67,7 @@ class Wiring:
     @cached_property
     def elements(self) -> dict[str, Element]:
         """The element of each node."""
-        return dict(self.graph.nodes(data="element"))
+        return {name: about["element"] for name, about in self.graph.nodes(data=True)}
 
     @cached_property
     def _links(self) -> tuple[list[Link], dict[Link, Any], list[Link]]:
@@ -132,7 +132,8 @@ class Wiring:
     @cached_property
     def framed(self) -> dict[str, dict[str, Frame]]:
         """The frames in the world of the ports of each node that has some."""
-        return {name: frames for name, frames in self.graph.nodes(data="frames") if frames}
+        nodes = self.graph.nodes(data=True)
+        return {name: frames for name, about in nodes if (frames := about["frames"])}
 
     @cached_property
     def couplings(self) -> dict[str, tuple[Coupling, ...]]:

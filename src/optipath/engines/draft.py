@@ -39,12 +39,36 @@ class DraftStep:
         self.action: Any = None  # What it makes of components, once that was looked up.
 
 
-class Draft:
-    """Steps in the making; where their light begins, ends and is kept, as `Program` has it."""
+class Steps:
+    """Steps in the making, in order; the place of each is the number of the light it makes."""
+
+    of_sum: type[Any]
 
     def __init__(self) -> None:
-        self.steps: list[DraftStep] = []
+        self.steps: list[Any] = []
         self.loops: list[tuple[tuple[int, ...], int]] = []
+
+    def sum(self, label: str, lights: Sequence[int]) -> int:
+        """Add the sum of several lights; one alone is itself. Of a junction, `close` says which."""
+        if len(lights) == 1:
+            return lights[0]
+        self.steps.append(self.of_sum(label, tuple(lights)))
+        return len(self.steps) - 1
+
+    def close(self, inputs: Mapping[int, Sequence[int]]) -> None:
+        """Say what the junctions of a loop add up, now that all of its steps are there."""
+        for junction, lights in inputs.items():
+            self.steps[junction] = self.of_sum(self.steps[junction].label, tuple(lights))
+        self.loops.append((tuple(inputs), len(self.steps)))
+
+
+class Draft(Steps):
+    """Steps as they were lowered; where their light begins, ends and is kept, as in `Program`."""
+
+    of_sum = DraftStep
+
+    def __init__(self) -> None:
+        super().__init__()
         self.ends: dict[str, Any] = {}
 
     def step(
@@ -59,23 +83,17 @@ class Draft:
         self.steps.append(DraftStep(label, inputs, operation, presence, bounces))
         return len(self.steps) - 1
 
-    def sum(self, label: str, lights: Sequence[int]) -> int:
-        """Add the sum of several lights; one alone is itself. Of a junction, `close` says which."""
-        if len(lights) == 1:
-            return lights[0]
-        self.steps.append(DraftStep(label, tuple(lights)))
-        return len(self.steps) - 1
-
-    def close(self, inputs: Mapping[int, Sequence[int]]) -> None:
-        """Say what the junctions of a loop add up, now that all of its steps are there."""
-        for junction, lights in inputs.items():
-            self.steps[junction].inputs = tuple(lights)
-        self.loops.append((tuple(inputs), len(self.steps)))
-
     @cached_property
     def program(self) -> Program:
-        """The program: operands and evaluations that are equal are one, made when first needed."""
-        return _Sharing(self).program
+        """The program, made when it is first needed."""
+        shared = SharedSteps()
+        for step in self.steps:
+            if step.operation is None:
+                shared.steps.append(Step(step.label, step.inputs))
+            else:
+                shared.step(step.label, step.inputs, step.operation, step.presence, step.bounces)
+        shared.loops = self.loops
+        return shared.program(self.ends)
 
     def __eq__(self, other: object) -> bool:
         return self.program == other.program if isinstance(other, Draft) else NotImplemented
@@ -90,44 +108,55 @@ class Draft:
         return result
 
 
-class _Sharing:
-    """Gathers the operands and evaluations of a draft, each entered once."""
+class SharedSteps(Steps):
+    """Steps of a program: operands and evaluations that are equal are entered once."""
 
-    def __init__(self, draft: Draft) -> None:
+    of_sum = Step
+
+    def __init__(self) -> None:
+        super().__init__()
         self.operands: list[Operand] = []
         self.evaluations: list[Evaluation] = []
         self.operations: list[Operation] = []
         self._operand_at: dict[Hashable, int] = {}
         self._number_at: dict[Hashable, int] = {}
         self._evaluation_at: dict[Evaluation, int] = {}
-        # By their numbers, which are theirs as long as the draft is there.
-        known = self._place_of = dict[Any, int]()
-        steps = []
-        for step in draft.steps:
-            if (operation := step.operation) is None:
-                steps.append(Step(step.label, step.inputs))
-                continue
-            presence = step.presence
-            key = id(operation) if presence is None else (id(operation), id(presence))
-            if (place := known.get(key)) is None:
-                place = self._evaluation(operation, presence)
-            bounces = step.bounces
-            steps.append(Step(step.label, step.inputs, place, bounces is not None, bounces or 0))
-        loops = tuple([_loop(steps, *loop) for loop in draft.loops])
-        self.program = Program(
-            tuple(self.operands), tuple(self.evaluations), tuple(steps), loops=loops, **draft.ends
-        )
-        vars(self.program)["operations"] = tuple(self.operations)
+        # By the numbers of operations, kept with these, lest others get them.
+        self._place_of: dict[Any, tuple[int, Operation]] = {}
 
-    def _evaluation(self, operation: Operation, presence: Operand | None = None) -> int:
+    def step(
+        self,
+        label: str,
+        inputs: tuple[int, ...],
+        operation: Operation,
+        presence: Operand | None = None,
+        bounces: int | None = None,
+    ) -> int:
+        """Add a step that does something to light."""
+        key = id(operation) if presence is None else (id(operation), id(presence))
+        if (known := self._place_of.get(key)) is None:
+            known = self._evaluation(operation, presence)
+        self.steps.append(Step(label, inputs, known[0], bounces is not None, bounces or 0))
+        return len(self.steps) - 1
+
+    def program(self, ends: Mapping[str, Any]) -> Program:
+        """Return the program."""
+        loops = tuple([_loop(self.steps, *loop) for loop in self.loops])
+        operands, evaluations = tuple(self.operands), tuple(self.evaluations)
+        result = Program(operands, evaluations, tuple(self.steps), loops=loops, **ends)
+        vars(result)["operations"] = tuple(self.operations)
+        return result
+
+    def _evaluation(
+        self, operation: Operation, presence: Operand | None = None
+    ) -> tuple[int, Operation]:
         arguments: list[int | Result] = []
         known, numbers = self._operand_at, self._number_at
         for argument in operation.arguments:
             if type(argument) is ResultOf:
                 inner = argument.operation
-                if (place := self._place_of.get(id(inner))) is None:
-                    place = self._evaluation(inner)
-                arguments.append(Result(place, argument.place))
+                known_inner = self._place_of.get(id(inner)) or self._evaluation(inner)
+                arguments.append(Result(known_inner[0], argument.place))
                 continue
             number = argument
             if type(argument) is Operand and argument.part == "value":
@@ -148,8 +177,8 @@ class _Sharing:
             self.evaluations.append(evaluation)
             self.operations.append(operation)
         key = id(operation) if presence is None else (id(operation), id(presence))
-        self._place_of[key] = index
-        return index
+        self._place_of[key] = result = index, operation
+        return result
 
     def _entered(self, operand: Operand, key: Hashable) -> int:
         """Return the place of an operand; those without a key are equal to none."""
