@@ -23,6 +23,7 @@ from optipath.composer.wiring import (
     link_text,
     sharing_faults,
     tap_faults,
+    where_several,
 )
 from optipath.elements.element import Chainable
 from optipath.engines.choice import ENGINES, REGISTRY, is_installed
@@ -90,9 +91,9 @@ def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
 
 
 def _feeding_faults(wiring: Wiring) -> Iterator[str]:
-    for (name, port), links in wiring.links_to.items():
+    for (name, port), links in where_several(wiring.links_to):
         element = wiring.elements[name]
-        if len(links) > 1 and not element.merges:
+        if not element.merges:
             feeders = " and ".join(f"'{start}.{leaves}'" for start, _, (leaves, _) in links)
             merges = f"{element.kind or type(element).__name__} does not merge light"
             yield f"port '{name}.{port}' is fed by {feeders}, but {merges}; put a Combiner there"

@@ -81,11 +81,11 @@ class Wiring:
                         azimuths[link] = about["azimuth"]
                     if about["tap"]:
                         taps.append(link)
-        return sorted(links), azimuths, sorted(taps)
+        return links, azimuths, sorted(taps)
 
     @property
     def links(self) -> list[Link]:
-        """The links, in order of their names."""
+        """The links, in the order of the graph."""
         return self._links[0]
 
     @property
@@ -117,7 +117,7 @@ class Wiring:
         if not azimuths and not placed:
             return []
         links = self.links
-        return [at for at in links if at in azimuths or at[0] in placed or at[1] in placed]
+        return sorted([at for at in links if at in azimuths or not placed.isdisjoint(at[:2])])
 
     @cached_property
     def placed(self) -> frozenset[str]:
@@ -160,20 +160,14 @@ class Wiring:
     @cached_property
     def links_to(self) -> dict[Port, list[Link]]:
         """The links that arrive at each in-port, in order of their names."""
-        results: dict[Port, list[Link]] = {}
-        for link in self.links:
-            results.setdefault((link[1], link[2][1]), []).append(link)
-        return results
+        return _by_port([((link[1], link[2][1]), link) for link in self.links])
 
     @cached_property
     def links_from(self) -> dict[Port, list[Link]]:
         """The links that take the light of each out-port, in order of their names; no taps."""
-        results: dict[Port, list[Link]] = {}
         taps = {*self.taps}
-        for link in self.links:
-            if not taps or link not in taps:
-                results.setdefault((link[0], link[2][0]), []).append(link)
-        return results
+        links = [link for link in self.links if link not in taps] if taps else self.links
+        return _by_port([((link[0], link[2][0]), link) for link in links])
 
     @cached_property
     def _places(self) -> dict[str, tuple[int, dict[str, int]]]:
@@ -316,8 +310,12 @@ class Wiring:
     @cached_property
     def dark_links(self) -> list[Link]:
         """The links from out-ports that no coupling gives light to."""
-        lit = {(name, c.leaves) for name, ways in self.couplings.items() for c in ways}
-        return [link for link in self.links if (link[0], link[2][0]) not in lit]
+        lit: dict[int, set[str]] = {}  # Equal elements share their couplings.
+        for ways in self.couplings.values():
+            if id(ways) not in lit:
+                lit[id(ways)] = {coupling.leaves for coupling in ways}
+        links, ways = self.links, self.couplings
+        return sorted([link for link in links if link[2][0] not in lit[id(ways[link[0]])]])
 
     @cached_property
     def outlets(self) -> tuple[str, ...]:
@@ -325,6 +323,21 @@ class Wiring:
         taken = self.links_from
         ports = [(name, port) for name, e in self.elements.items() for port in e.outputs]
         return tuple(sorted([".".join(port) for port in ports if port not in taken]))
+
+
+def _by_port(pairs: Iterable[tuple[Port, Link]]) -> dict[Port, list[Link]]:
+    """Return the links of each port, in order of their names."""
+    results: dict[Port, list[Link]] = {}
+    for port, link in pairs:
+        results.setdefault(port, []).append(link)
+    for _, links in where_several(results):
+        links.sort()
+    return results
+
+
+def where_several(links_at: dict[Port, list[Link]]) -> list[tuple[Port, list[Link]]]:
+    """Return the ports at which several links are, in order, with these."""
+    return sorted([(port, links) for port, links in links_at.items() if len(links) > 1])
 
 
 Port: TypeAlias = tuple[str, str]
@@ -432,17 +445,16 @@ _OTHER = "other light"
 
 def sharing_faults(wiring: Wiring) -> Iterator[str]:
     """Yield a sentence for each out-port whose whole light several links would take."""
-    for (name, port), links in wiring.links_from.items():
-        if len(links) > 1:
-            ends = listed([f"'{link[1]}.{link[2][1]}'" for link in links])
-            yield Fault(
-                f"port '{name}.{port}' feeds {ends}, and each would get all of its light",
-                Cure.of(
-                    "put one behind the other, share it by a BeamSplitter, or tap it: {}".format,
-                    "connect(..., tap=True)",
-                    "tap = true below its [[links]]",
-                ),
-            )
+    for (name, port), links in where_several(wiring.links_from):
+        ends = listed([f"'{link[1]}.{link[2][1]}'" for link in links])
+        yield Fault(
+            f"port '{name}.{port}' feeds {ends}, and each would get all of its light",
+            Cure.of(
+                "put one behind the other, share it by a BeamSplitter, or tap it: {}".format,
+                "connect(..., tap=True)",
+                "tap = true below its [[links]]",
+            ),
+        )
 
 
 def tap_faults(wiring: Wiring) -> Iterator[str]:

@@ -11,7 +11,7 @@ import numpy as np
 from optipath.composer.media import with_followed
 from optipath.composer.meetings import Meetings
 from optipath.composer.placement import azimuth_of, frame_at, is_zero
-from optipath.composer.wiring import Wiring, link_text
+from optipath.composer.wiring import Wiring, link_text, where_several
 from optipath.elements.boundary import BoundaryElement
 from optipath.elements.coupling import vanishes
 from optipath.elements.element import Element
@@ -128,7 +128,7 @@ class _Turning:
         """Yield what has no way back of the links, a sentence each."""
         for tap in self.wiring.taps:
             yield f"link '{link_text(tap)}' is a tap, which has no way back; take it out"
-        for (name, port), several in self.wiring.links_to.items():
+        for (name, port), several in where_several(self.wiring.links_to):
             links = [link for link in several if link not in self.wiring.taps]
             # What adds up inside of an element has been told.
             if len(links) > 1 and not (self.before[name].merges and self.before[name].outputs):
