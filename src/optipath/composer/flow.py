@@ -77,8 +77,6 @@ class Flow:
     def __init__(self, draft: Draft) -> None:
         self.draft = draft
         self.facts = Facts(draft)
-        # What reductions know of operations, each kept with what is known of it.
-        self.constants: dict[int, tuple[Any, Operation]] = {}
         self.is_looked_at = False  # Whether the masks of all nodes are as they should be.
         # The nodes in the order in which their lights are made; junctions, where a loop ends.
         self.order: list[LightNode | tuple[LightNode, ...]] = []
@@ -128,6 +126,10 @@ class Flow:
     def chains(self) -> Iterator[LightNode]:
         """The nodes that have items."""
         return (node for node in self.nodes if node.items)
+
+    def look_up(self) -> None:
+        """Find what is known of the operations of all items."""
+        self.facts.look_up([i for node in self.chains for i in node.items if i.fact is None])
 
     def program(self) -> Program:
         """Return the program that has been made of the draft."""
@@ -298,6 +300,22 @@ _zero_or_one = dict[Entry, Entry]({0.0: 0.0, 1.0: 1.0}).get
 """Which number it is seldom matters, but for these two."""
 
 
+class Fact:
+    """What is known of an operation before a program runs: what it comes to, and what that does.
+
+    `constant` is False until it was looked up, by `optipath.composer.reduce`.
+    """
+
+    __slots__ = ("actions", "constant", "operation", "outcome")
+
+    def __init__(self, operation: Operation, outcome: tuple[float, ...] | None) -> None:
+        self.operation = operation
+        self.outcome = outcome
+        self.constant: Any = False
+        # Of a step that is always there, and of one that may be absent.
+        self.actions: list[Action | None] = [None, None]
+
+
 class Facts:
     """What is known of the operations of a program before it runs, each looked at once.
 
@@ -306,45 +324,58 @@ class Facts:
 
     def __init__(self, draft: Draft) -> None:
         self._closed = bool(draft.loops)
-        # Kept with what is known of them, so that no others get their numbers.
-        self._outcomes: dict[int, tuple[Operation, tuple[float, ...] | None]] = {}
-        self._actions: dict[tuple[int, bool], tuple[Action, Operation]] = {}
+        # By their numbers; each keeps its operation, so that no others get these.
+        self._known: dict[int, Fact] = {}
         self._zeros: dict[Hashable, tuple[bool, Operand]] = {}
 
-    def outcome(self, operation: Operation) -> tuple[float, ...] | None:
-        """Return the numbers that an operation comes to; None if these are not known."""
-        known = self._outcomes.get(id(operation))
-        if known is None:
-            numbers = None if self._closed else self._numbers(operation)
-            outcome = None if numbers is None else _evaluated(operation.kernel, numbers)
-            known = self._outcomes[id(operation)] = operation, outcome
-        return known[1]
-
-    def look_up(self, operations: Iterable[Operation]) -> None:
-        """Find the outcomes of several operations, those of one kernel together."""
-        alike: dict[int, list[tuple[Operation, Sequence[float]]]] = {}
-        every = {id(operation): operation for operation in operations}
-        for operation in [one for at, one in every.items() if at not in self._outcomes]:
-            numbers = None if self._closed else self._numbers(operation)
-            if numbers is None:
-                self._outcomes[id(operation)] = operation, None
-            else:
-                alike.setdefault(id(operation.kernel), []).append((operation, numbers))
+    def look_up(self, items: Iterable[DraftStep]) -> None:
+        """Find what is known of the operations of items; those of one kernel together."""
+        known = self._known
+        alike: dict[int, list[tuple[Fact, Sequence[float]]]] = {}
+        for item in items:
+            operation = item.operation
+            if (fact := known.get(id(operation))) is None:
+                fact = known[id(operation)] = Fact(operation, None)
+                if (numbers := self._numbers(operation)) is not None:
+                    alike.setdefault(id(operation.kernel), []).append((fact, numbers))
+            item.fact = fact
         for several in alike.values():
-            rows = [numbers for _, numbers in several]
-            outcomes = _evaluated_together(several[0][0].kernel, rows)
-            for (operation, _), outcome in zip(several, outcomes, strict=True):
-                self._outcomes[id(operation)] = operation, outcome
+            outcomes = _evaluated(several[0][0].operation.kernel, [row for _, row in several])
+            for (fact, _), outcome in zip(several, outcomes, strict=True):
+                fact.outcome = outcome
+
+    def of(self, operation: Operation) -> Fact:
+        """Return what is known of an operation."""
+        if (fact := self._known.get(id(operation))) is None:
+            numbers = self._numbers(operation)
+            outcome = None if numbers is None else _evaluated(operation.kernel, [numbers])[0]
+            fact = self._known[id(operation)] = Fact(operation, outcome)
+        return fact
+
+    def action(self, item: DraftStep) -> Action:
+        """Return what a step makes of components."""
+        fact, may_be_absent = item.fact or self.of(item.operation), item.presence is not None
+        if (action := fact.actions[may_be_absent]) is None:
+            kernel = item.operation.kernel
+            if fact.outcome is None:
+                action = _of_kernel(kernel, self._signs(item.operation), may_be_absent)
+            else:
+                signs = tuple(map(_zero_or_one, fact.outcome))
+                action = _of_numbers(kernel.structure, signs, may_be_absent)
+            fact.actions[may_be_absent] = action
+        return action
 
     def _numbers(self, operation: Operation) -> Sequence[float] | None:
         """Return the numbers that an operation is given, if all are known."""
+        if self._closed:
+            return None
         arguments: Any = operation.arguments
         if _FLOATS.issuperset(map(type, arguments)):
             return tuple(arguments)
         numbers: list[float] = []
         for argument in arguments:
             if type(argument) is ResultOf:
-                results = self.outcome(argument.operation)
+                results = self.of(argument.operation).outcome
                 number = None if results is None else results[argument.place]
             else:
                 number = number_of(argument)
@@ -353,20 +384,6 @@ class Facts:
             numbers.append(number)
         return numbers
 
-    def action(self, item: DraftStep) -> Action:
-        """Return what a step makes of components."""
-        operation, may_be_absent = item.operation, item.presence is not None
-        known = self._actions.get((id(operation), may_be_absent))
-        if known is None:
-            kernel = operation.kernel
-            if (outcome := self.outcome(operation)) is None:
-                action = _of_kernel(kernel, self._signs(operation), may_be_absent)
-            else:
-                signs = tuple(map(_zero_or_one, outcome))
-                action = _of_numbers(kernel.structure, signs, may_be_absent)
-            known = self._actions[id(operation), may_be_absent] = action, operation
-        return known[0]
-
     def _signs(self, operation: Operation) -> tuple[Entry, ...]:
         """Return which arguments are 0, and which 1, as far as that is known."""
         signs: list[Entry] = []
@@ -374,7 +391,7 @@ class Facts:
             if type(argument) is ResultOf:
                 inner, place = argument.operation, argument.place
                 kernel: Any = inner.kernel
-                row = self.outcome(inner) or _open_numbers(kernel, self._signs(inner))
+                row = self.of(inner).outcome or _open_numbers(kernel, self._signs(inner))
                 signs.append(_zero_or_one(row[place] if place < len(row) else None))
             elif (number := number_of(argument)) is None and self._vanishes(argument):
                 signs.append(0.0)
@@ -419,34 +436,32 @@ def _of_kernel(kernel: Kernel, signs: tuple[Entry, ...], may_be_absent: bool) ->
 
 def _open_numbers(kernel: Kernel, signs: tuple[Entry, ...]) -> tuple[Entry, ...]:
     """Return what a kernel declares of its numbers, for arguments that are 0 or 1."""
-    outcome = None if None in signs else _evaluated(kernel, signs)
+    outcome = None if None in signs else _evaluated(kernel, [signs])[0]
     if outcome is None:
         zeros = {place for place, number in enumerate(signs) if number == 0.0}
         return kernel.known_numbers(zeros, len(signs))
     return tuple([number if isfinite(number) else None for number in outcome])
 
 
-def _evaluated(kernel: Any, numbers: Any) -> tuple[float, ...] | None:
-    try:
-        return tuple(map(float, _of_floats(kernel)(*numbers)))
-    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-        return None
-
-
 _MANY = 16
 """From how many on operations are evaluated together."""
 
 
-def _evaluated_together(kernel: Any, rows: list[Sequence[float]]) -> list[tuple[float, ...] | None]:
-    """Return what a kernel makes of each row of numbers, with the bits of floats."""
+def _evaluated(kernel: Any, rows: list[Any]) -> list[tuple[float, ...] | None]:
+    """Return what a kernel makes of each row of numbers, many together with the bits of floats."""
     if len(rows) >= _MANY and kernel.of_library:
         with suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
-            columns = np.array(rows).T
-            results = kernel.made_for(FLOAT_ARRAYS)(*columns)
+            results = kernel.made_for(FLOAT_ARRAYS)(*np.array(rows).T)
             numbers = np.array([np.broadcast_to(each, len(rows)) for each in results])
             if np.isfinite(numbers).all():
                 return [*zip(*numbers.tolist(), strict=True)]
-    return [_evaluated(kernel, row) for row in rows]
+    outcomes: list[tuple[float, ...] | None] = []
+    for row in rows:
+        try:
+            outcomes.append(tuple(map(float, _of_floats(kernel)(*row))))
+        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+            outcomes.append(None)
+    return outcomes
 
 
 @lru_cache(256)

@@ -261,30 +261,21 @@ _MOST = 16
 def multiplied_constants(flow: Flow, *, matrices: bool) -> list[str]:
     """Make neighbouring constants one, in float64."""
     notes: list[str] = []
-    constants = flow.constants
-
-    def constant_of(operation: Any) -> Constant | None:
-        structure = operation.kernel.structure
-        numbers = None if structure is None else flow.facts.outcome(operation)
-        constant = None if numbers is None else Constant(structure, numbers)
-        constants[id(operation)] = constant, operation
-        return constant
 
     def done_to(items: list[DraftStep]) -> list[DraftStep]:
         results: list[DraftStep] = []
         run: list[tuple[DraftStep, Constant]] = []
         for item in items:
-            operation, constant = item.operation, None
-            if item.presence is None:
-                known = constants.get(id(operation))
-                constant = known[0] if known else constant_of(operation)
-            if constant is None:
+            constant = item.fact.constant
+            if constant is False:
+                constant = item.fact.constant = _constant_of(item.fact)
+            if constant is None or item.presence is not None:
                 if run:
                     results += as_one(run)
                     run = []
                 results.append(item)
             elif constant.numbers == constant.structure.identity:
-                notes.append(f"{operation.kernel.name} at '{item.label}' changes nothing")
+                notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
             elif run and (both := run[-1][1].then(constant)):
                 run[-1] = _joined(run[-1][0], item, both, notes), both
             else:
@@ -308,11 +299,16 @@ def multiplied_constants(flow: Flow, *, matrices: bool) -> list[str]:
                 results.append((item, constant))
         return [item for item, _ in results]
 
-    items = [item for node in flow.chains for item in node.items if item.presence is None]
-    flow.facts.look_up([item.operation for item in items])
+    flow.look_up()
     for node in flow.chains:
         node.items = done_to(node.items)
     return notes
+
+
+def _constant_of(fact: Any) -> Constant | None:
+    structure = fact.operation.kernel.structure
+    known = fact.outcome is not None and structure is not None
+    return Constant(structure, fact.outcome) if known else None
 
 
 def _joined(first: DraftStep, second: DraftStep, constant: Constant, notes: list[str]) -> DraftStep:

@@ -314,8 +314,8 @@ class Wiring:
         for ways in self.couplings.values():
             if id(ways) not in lit:
                 lit[id(ways)] = {coupling.leaves for coupling in ways}
-        links, ways = self.links, self.couplings
-        return sorted([link for link in links if link[2][0] not in lit[id(ways[link[0]])]])
+        known = self.couplings
+        return sorted([link for link in self.links if link[2][0] not in lit[id(known[link[0]])]])
 
     @cached_property
     def outlets(self) -> tuple[str, ...]:

@@ -21,7 +21,7 @@ class DraftStep:
     Light at a port has taken so many bounces on the way there; any other, None.
     """
 
-    __slots__ = ("action", "bounces", "inputs", "label", "operation", "presence")
+    __slots__ = ("action", "bounces", "fact", "inputs", "label", "operation", "presence")
 
     def __init__(
         self,
@@ -36,7 +36,9 @@ class DraftStep:
         self.operation: Any = operation
         self.presence = presence
         self.bounces = bounces
-        self.action: Any = None  # What it makes of components, once that was looked up.
+        # What is known of its operation, and what it makes of components; once looked up.
+        self.fact: Any = None
+        self.action: Any = None
 
 
 class Steps:
