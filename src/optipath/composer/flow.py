@@ -301,19 +301,27 @@ _zero_or_one = dict[Entry, Entry]({0.0: 0.0, 1.0: 1.0}).get
 
 
 class Fact:
-    """What is known of an operation before a program runs: what it comes to, and what that does.
+    """What is known of an operation before a program runs: the numbers it comes to, if any.
 
-    `constant` is False until it was looked up, by `optipath.composer.reduce`.
+    `actions` are those of a step that is always there, and of one that may be absent.
     """
 
-    __slots__ = ("actions", "constant", "operation", "outcome")
+    __slots__ = ("_rows", "actions", "numbers", "operation", "structure")
 
-    def __init__(self, operation: Operation, outcome: tuple[float, ...] | None) -> None:
+    def __init__(self, operation: Operation, numbers: tuple[float, ...] | None) -> None:
+        kernel: Any = operation.kernel
         self.operation = operation
-        self.outcome = outcome
-        self.constant: Any = False
-        # Of a step that is always there, and of one that may be absent.
-        self.actions: list[Action | None] = [None, None]
+        self.structure = kernel.structure
+        self.numbers: Any = numbers
+        self.actions: tuple[Action | None, Action | None] = (None, None)
+        self._rows: Any = None
+
+    @property
+    def rows(self) -> Sequence[tuple[float, ...]]:
+        """The matrix of what is known."""
+        if self._rows is None:
+            self._rows = self.structure.rows(FLOAT, self.numbers)
+        return self._rows  # type: ignore[no-any-return]
 
 
 class Facts:
@@ -342,7 +350,7 @@ class Facts:
         for several in alike.values():
             outcomes = _evaluated(several[0][0].operation.kernel, [row for _, row in several])
             for (fact, _), outcome in zip(several, outcomes, strict=True):
-                fact.outcome = outcome
+                fact.numbers = outcome
 
     def of(self, operation: Operation) -> Fact:
         """Return what is known of an operation."""
@@ -357,12 +365,13 @@ class Facts:
         fact, may_be_absent = item.fact or self.of(item.operation), item.presence is not None
         if (action := fact.actions[may_be_absent]) is None:
             kernel = item.operation.kernel
-            if fact.outcome is None:
+            if fact.numbers is None:
                 action = _of_kernel(kernel, self._signs(item.operation), may_be_absent)
             else:
-                signs = tuple(map(_zero_or_one, fact.outcome))
+                signs = tuple(map(_zero_or_one, fact.numbers))
                 action = _of_numbers(kernel.structure, signs, may_be_absent)
-            fact.actions[may_be_absent] = action
+            always, absent = fact.actions
+            fact.actions = (always, action) if may_be_absent else (action, absent)
         return action
 
     def _numbers(self, operation: Operation) -> Sequence[float] | None:
@@ -375,7 +384,7 @@ class Facts:
         numbers: list[float] = []
         for argument in arguments:
             if type(argument) is ResultOf:
-                results = self.of(argument.operation).outcome
+                results = self.of(argument.operation).numbers
                 number = None if results is None else results[argument.place]
             else:
                 number = number_of(argument)
@@ -391,7 +400,7 @@ class Facts:
             if type(argument) is ResultOf:
                 inner, place = argument.operation, argument.place
                 kernel: Any = inner.kernel
-                row = self.of(inner).outcome or _open_numbers(kernel, self._signs(inner))
+                row = self.of(inner).numbers or _open_numbers(kernel, self._signs(inner))
                 signs.append(_zero_or_one(row[place] if place < len(row) else None))
             elif (number := number_of(argument)) is None and self._vanishes(argument):
                 signs.append(0.0)

@@ -65,7 +65,7 @@ class _Lowering:
     def __init__(self, wiring: Wiring, method: str) -> None:
         self.wiring = wiring
         self._links_to, self._couplings = wiring.links_to, wiring.couplings
-        self._turning = wiring.turning
+        self._turned, self._told = wiring.turned, frozenset(wiring.told)
         self.method = method
         self.draft = Draft()
         self.lights: dict[Port, int] = {}
@@ -111,12 +111,11 @@ class _Lowering:
             self.lights[junction] = self.draft.sum(".".join(junction), ())
         # The junctions come first.
         for port in stretch.ports[len(outside) :]:
-            links = self._links_to.get(port, ())
-            if len(links) == 1:
+            links = self._links_to.get(port)
+            if links and len(links) == 1:
                 self.lights[port] = self._along(links[0])
-            elif len(lights := self._arriving(port)) == 1:
-                self.lights[port] = lights[0]
             else:
+                lights = self._arriving(port)
                 self.lights[port] = self.draft.sum(".".join(port), lights)
         if outside:
             within, sums = set(stretch.ports), dict[int, list[int]]()
@@ -139,9 +138,11 @@ class _Lowering:
 
     def _along(self, link: Link) -> int:
         """Return the light of a link in the frame that it enters."""
-        start, _, (leaves, _) = link
+        start, end, (leaves, _) = link
         light = self.lights[start, leaves]
-        if link not in self._turning or (turn := alignment(self.wiring, link)) is None:
+        if (end not in self._turned and link not in self._told) or (
+            turn := alignment(self.wiring, link)
+        ) is None:
             return light
         return self.draft.step(link_text(link), (light,), self._lowered(turn))
 

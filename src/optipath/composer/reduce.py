@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from dataclasses import replace
+from functools import partial
 from math import inf
 from operator import and_
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.composer.flow import Flow, find_alive, idle_items, number_of, vanishes
+from optipath.composer.flow import Fact, Flow, find_alive, idle_items, number_of, vanishes
 from optipath.engines.draft import DraftStep
 from optipath.engines.program import MODELS, Reduction, Tolerance
 from optipath.errors import ComposerError
@@ -31,12 +31,11 @@ from optipath.kernels.catalog import (
     TURN,
     TURN_BACK,
 )
-from optipath.kernels.primitives import FLOAT
 from optipath.values.operands import Operand, Operation, ResultOf, operand_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Sequence
+    from collections.abc import Callable, Hashable
 
     from optipath.engines.draft import Draft
     from optipath.engines.program import Program
@@ -194,57 +193,46 @@ _EXTINCT = 0.01
 _LEAST = 1e-60
 
 
-@dataclass(eq=False)
-class Constant:
-    """The numbers of a step, as its structure has them."""
-
-    structure: Structure
-    numbers: tuple[float, ...]
-
-    @cached_property
-    def lets_through(self) -> bool:
-        """Whether no light is nearly extinguished by it."""
-        if self.structure is ROTATION:
-            return True
-        first, *others = self.rows[0]
-        return first - math.hypot(*others) > _EXTINCT * first
-
-    @cached_property
-    def rows(self) -> Sequence[tuple[float, ...]]:
-        """The matrix."""
-        return self.structure.rows(FLOAT, self.numbers)
-
-    def then(self, later: Constant) -> Constant | None:
-        """Return both as one of the same sort, no digit lost; None where they have none.
-
-        >>> Constant(SCALE, (0.5,)).then(Constant(SCALE, (0.5,))).numbers
-        (0.25,)
-        """
-        one, other = self.structure.name, later.structure.name
-        if one == other == ROTATION.name:
-            (c1, s1), (c2, s2) = self.numbers, later.numbers
-            return Constant(ROTATION, (c1 * c2 - s1 * s2, s1 * c2 + c1 * s2))
-        if one == other == BLOCK.name:
-            return _unless_lost(Constant(BLOCK, _blocks(self.numbers, later.numbers)))
-        if SCALE.name in (one, other) and {one, other}.isdisjoint([ROTATION.name, JONES.name]):
-            scale, scaled = (self, later) if one == SCALE.name else (later, self)
-            product = tuple([scale.numbers[0] * number for number in scaled.numbers])
-            return _unless_lost(Constant(scaled.structure, product))
-        return None
+def _product(structure: Structure, numbers: tuple[float, ...]) -> Fact | None:
+    """Return a constant, unless its intensity is so faint, or so large, that it might get lost."""
+    fact = Fact(Operation(_KINDS[structure.name][0], numbers), numbers)
+    return fact if _LEAST < fact.rows[0][0] < 1.0 / _LEAST else None
 
 
-def multiplied(first: Constant, second: Constant) -> Constant | None:
+def in_one(first: Fact, second: Fact) -> Fact | None:
+    """Return two constants in the order of travel as one of their sort; None if there is none.
+
+    No digit is lost.
+    """
+    here, there = first.structure, second.structure
+    one, other = here.name, there.name
+    if one == other == ROTATION.name:
+        (c1, s1), (c2, s2) = first.numbers, second.numbers
+        return _product(ROTATION, (c1 * c2 - s1 * s2, s1 * c2 + c1 * s2))
+    if one == other == BLOCK.name:
+        return _product(BLOCK, _blocks(first.numbers, second.numbers))
+    if SCALE.name in (one, other) and {one, other}.isdisjoint([ROTATION.name, JONES.name]):
+        scale, scaled = (first, second) if one == SCALE.name else (second, first)
+        t = scale.numbers[0]
+        return _product(scaled.structure, tuple([t * number for number in scaled.numbers]))
+    return None
+
+
+def multiplied(first: Fact, second: Fact) -> Fact | None:
     """Return two constants in the order of travel as one matrix; None if it is too faint."""
     columns = [*zip(*first.rows, strict=True)]
     rows = second.rows
     entries = [a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns]
-    result = _unless_lost(Constant(FULL, tuple(entries)))
-    return result if result and result.lets_through else None
+    result = _product(FULL, tuple(entries))
+    return result if result and _lets_through(result) else None
 
 
-def _unless_lost(product: Constant) -> Constant | None:
-    """Return a product unless its intensity is so faint, or so large, that it might get lost."""
-    return product if _LEAST < product.rows[0][0] < 1.0 / _LEAST else None
+def _lets_through(constant: Fact) -> bool:
+    """Tell whether no light is nearly extinguished by a constant."""
+    if constant.structure is ROTATION:
+        return True
+    first, *others = constant.rows[0]
+    return first - math.hypot(*others) > _EXTINCT * first
 
 
 def _blocks(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, ...]:
@@ -264,40 +252,37 @@ def multiplied_constants(flow: Flow, *, matrices: bool) -> list[str]:
 
     def done_to(items: list[DraftStep]) -> list[DraftStep]:
         results: list[DraftStep] = []
-        run: list[tuple[DraftStep, Constant]] = []
+        run: list[DraftStep] = []
         for item in items:
-            constant = item.fact.constant
-            if constant is False:
-                constant = item.fact.constant = _constant_of(item.fact)
-            if constant is None or item.presence is not None:
+            fact = item.fact
+            if fact.numbers is None or fact.structure is None or item.presence is not None:
                 if run:
                     results += as_one(run)
                     run = []
                 results.append(item)
-            elif constant.numbers == constant.structure.identity:
+            elif fact.numbers == fact.structure.identity:
                 notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
-            elif run and (both := run[-1][1].then(constant)):
-                run[-1] = _joined(run[-1][0], item, both, notes), both
+            elif run and (both := in_one(run[-1].fact, fact)):
+                run[-1] = _joined(run[-1], item, both, notes)
             else:
-                run.append((item, constant))
+                run.append(item)
         return results + as_one(run) if run else results
 
-    def as_one(run: Sequence[tuple[DraftStep, Constant]]) -> list[DraftStep]:
+    def as_one(run: list[DraftStep]) -> list[DraftStep]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
-        if len(run) < 2:
-            return [item for item, _ in run]
-        costs = [_KINDS[constant.structure.name][1] for _, constant in run]
-        dear = matrices and sum(costs) > _KINDS[FULL.name][1]
-        if not (dear and all(constant.lets_through for _, constant in run)):
-            return [item for item, _ in run]
-        results: list[tuple[DraftStep, Constant]] = []
-        for place, (item, constant) in enumerate(run):
-            both = multiplied(results[-1][1], constant) if place % _MOST else None
+        if len(run) < 2 or not matrices:
+            return run
+        cost = sum([_KINDS[item.fact.structure.name][1] for item in run])
+        if cost <= _KINDS[FULL.name][1] or not all(_lets_through(item.fact) for item in run):
+            return run
+        results: list[DraftStep] = []
+        for place, item in enumerate(run):
+            both = multiplied(results[-1].fact, item.fact) if place % _MOST else None
             if both:
-                results[-1] = _joined(results[-1][0], item, both, notes), both
+                results[-1] = _joined(results[-1], item, both, notes)
             else:
-                results.append((item, constant))
-        return [item for item, _ in results]
+                results.append(item)
+        return results
 
     flow.look_up()
     for node in flow.chains:
@@ -305,18 +290,13 @@ def multiplied_constants(flow: Flow, *, matrices: bool) -> list[str]:
     return notes
 
 
-def _constant_of(fact: Any) -> Constant | None:
-    structure = fact.operation.kernel.structure
-    known = fact.outcome is not None and structure is not None
-    return Constant(structure, fact.outcome) if known else None
-
-
-def _joined(first: DraftStep, second: DraftStep, constant: Constant, notes: list[str]) -> DraftStep:
+def _joined(first: DraftStep, second: DraftStep, constant: Fact, notes: list[str]) -> DraftStep:
     """Return neighbours as one step, and note it."""
     one, other = [f"{item.operation.kernel.name} at '{item.label}'" for item in (first, second)]
     notes.append(f"constant, and multiplied: {one} and {other}")
-    operation = Operation(_KINDS[constant.structure.name][0], constant.numbers)
-    return DraftStep(label_of(first, second), (), operation)
+    result = DraftStep(label_of(first, second), (), constant.operation)
+    result.fact = constant
+    return result
 
 
 _WORDS = 60
