@@ -95,6 +95,8 @@ def reduced(whole: Draft, model: str, composing: str, dtype: str) -> Reduction:
             break
     if not flow.is_looked_at:
         find_alive(flow)
+    for step in whole.steps:
+        step.fact = None  # As large as the step, and of no use any more.
     program = flow.program() if notes else whole.program
     program = replace(program, live=flow.live(changed=bool(notes)))
     folded = tuple(dict.fromkeys(notes))

@@ -60,14 +60,23 @@ class Wiring:
         if loops is None and keep == self.keep:
             return self
         result = Wiring(self.graph, loops, keep)
-        shared = ("elements", "_links", "links_to", "couplings", "alike")
+        shared = ("_nodes", "_links", "links_to", "couplings", "alike")
         vars(result).update({name: vars(self)[name] for name in shared if name in vars(self)})
         return result
 
     @cached_property
+    def _nodes(self) -> tuple[dict[str, Element], dict[str, dict[str, Frame]]]:
+        elements, framed = {}, {}
+        for name, about in self.graph.nodes(data=True):
+            elements[name] = about["element"]
+            if frames := about["frames"]:
+                framed[name] = frames
+        return elements, framed
+
+    @property
     def elements(self) -> dict[str, Element]:
         """The element of each node."""
-        return {name: about["element"] for name, about in self.graph.nodes(data=True)}
+        return self._nodes[0]
 
     @cached_property
     def _links(self) -> tuple[list[Link], dict[Link, Any], list[Link]]:
@@ -129,11 +138,10 @@ class Wiring:
         """The nodes whose elements have frames by their own values."""
         return frozenset([name for name, e in self.elements.items() if e.self_placed])
 
-    @cached_property
+    @property
     def framed(self) -> dict[str, dict[str, Frame]]:
         """The frames in the world of the ports of each node that has some."""
-        nodes = self.graph.nodes(data=True)
-        return {name: frames for name, about in nodes if (frames := about["frames"])}
+        return self._nodes[1]
 
     @cached_property
     def couplings(self) -> dict[str, tuple[Coupling, ...]]:
@@ -172,14 +180,14 @@ class Wiring:
     @cached_property
     def _places(self) -> dict[str, tuple[int, dict[str, int]]]:
         """Of each node, the number of its first port, and the places of its ports from there."""
-        known: dict[Any, dict[str, int]] = {}
+        known: dict[type, dict[str, int]] = {}
         results: dict[str, tuple[int, dict[str, int]]] = {}
-        first = 0
-        for name in sorted(self.elements):
-            element = self.elements[name]
-            ports = (*element.inputs, *element.outputs)
-            if (places := known.get(ports)) is None:
-                places = known[ports] = {port: at for at, port in enumerate(sorted(ports))}
+        first, elements = 0, self.elements
+        for name in sorted(elements):
+            kind = type(elements[name])
+            if (places := known.get(kind)) is None:
+                ports = sorted((*kind.inputs, *kind.outputs))
+                places = known[kind] = {port: at for at, port in enumerate(ports)}
             results[name] = first, places
             first += len(places)
         return results
