@@ -220,6 +220,7 @@ REFUSED = [
     (lambda: histogram(PAIR, [1.0, 1.0]), "give 1 powers"),
     (lambda: histogram(PAIR, [1.0], outside="linear"), "leave it out"),
     (lambda: histogram(SAME, [1.0]), "rise or fall throughout"),
+    (lambda: histogram(500e-9, 1.0), "rise or fall throughout"),
     (lambda: line(633), "wavelength of a line .* below 0.1 m"),
     (lambda: line("633 nm", -1.0), "power of a line is -1"),
     (lambda: line(["633 nm"]), "give one number"),

@@ -152,6 +152,14 @@ def test_what_cannot_be_given_later_is_told_at_once(others, message):
         op.path_from_vertices(LATER["points"], [1.5, 1.2 + 2j], **others)
 
 
+def test_media_in_an_array_fit_what_is_given_of_each_chain():
+    index = [np.array([1.5, 1.6]), 1.4]
+    path = op.path_from_vertices(op.Parameter("points"), index, events=op.Parameter("events"))
+    points = random_chains(5, 2)
+    with pytest.raises(op.errors.ParameterError, match=r"together: events \(5,\), materials\[0\]"):
+        path.trace(points=points, events=["RR"] * 5)
+
+
 def test_a_range_of_the_parameter_is_kept():
     points, index = random_chains(3, 3), [1.5, 1.4, 1.3]
     path = op.path_from_vertices(points, index, lengths=op.Parameter("l", maximum=2))

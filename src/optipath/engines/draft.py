@@ -119,7 +119,6 @@ class SharedSteps(Steps):
         super().__init__()
         self.operands: list[Operand] = []
         self.evaluations: list[Evaluation] = []
-        self.operations: list[Operation] = []
         self._operand_at: dict[Hashable, int] = {}
         self._number_at: dict[Hashable, int] = {}
         self._evaluation_at: dict[Evaluation, int] = {}
@@ -145,9 +144,7 @@ class SharedSteps(Steps):
         """Return the program."""
         loops = tuple([_loop(self.steps, *loop) for loop in self.loops])
         operands, evaluations = tuple(self.operands), tuple(self.evaluations)
-        result = Program(operands, evaluations, tuple(self.steps), loops=loops, **ends)
-        vars(result)["operations"] = tuple(self.operations)
-        return result
+        return Program(operands, evaluations, tuple(self.steps), loops=loops, **ends)
 
     def _evaluation(
         self, operation: Operation, presence: Operand | None = None
@@ -177,7 +174,6 @@ class SharedSteps(Steps):
         index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
         if index == len(self.evaluations):
             self.evaluations.append(evaluation)
-            self.operations.append(operation)
         key = id(operation) if presence is None else (id(operation), id(presence))
         self._place_of[key] = result = index, operation
         return result

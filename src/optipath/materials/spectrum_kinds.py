@@ -69,8 +69,8 @@ def single(owner: str, value: Any, domain: Domain = NON_NEGATIVE) -> float:
 def edges_of(owner: str, value: Any) -> Array:
     """Return the edges (n + 1,) of bins in metres, rising or falling."""
     edges = several(owner, value, PLACES)
-    steps = np.diff(edges)
-    if edges.ndim != 1 or edges.size < 2 or not (np.all(steps > 0.0) or np.all(steps < 0.0)):
+    steps = np.diff(edges) if edges.ndim == 1 else np.zeros(0)
+    if not steps.size or not (np.all(steps > 0.0) or np.all(steps < 0.0)):
         raise ValueFault(
             f"{owner} must be a row of two wavelengths or more that rise or fall throughout, not "
             f"{shown(value)}"

@@ -80,6 +80,8 @@ class Histories:
         front = n
         for place, material in enumerate(self.materials):
             if place:
+                shapes = {"events": codes.shape[:-1], f"materials[{place - 1}]": n.shape}
+                ValueFault.raise_for(broadcast_fault(shapes | {"the medium before": front.shape}))
                 front = locked(np.where(codes[..., place - 1] == Event.REFRACTS, n, front))
             n, k = index_parts(f"materials[{place}]", material)
             yield n, k, front
