@@ -65,7 +65,7 @@ class _Lowering:
     def __init__(self, wiring: Wiring, method: str) -> None:
         self.wiring = wiring
         self._links_to, self._couplings = wiring.links_to, wiring.couplings
-        self._turned, self._told = wiring.turned, frozenset(wiring.told)
+        self._turned, self._framed = wiring.turned, wiring.framed_links
         self.method = method
         self.draft = Draft()
         self.lights: dict[Port, int] = {}
@@ -140,7 +140,7 @@ class _Lowering:
         """Return the light of a link in the frame that it enters."""
         start, end, (leaves, _) = link
         light = self.lights[start, leaves]
-        if (end not in self._turned and link not in self._told) or (
+        if (end not in self._turned and link not in self._framed) or (
             turn := alignment(self.wiring, link)
         ) is None:
             return light

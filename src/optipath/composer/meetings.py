@@ -123,7 +123,7 @@ class Meetings:
             port, straight, before = waiting.pop()
             for link in links_from.get(port, ()):
                 name, enters, turns = link[1], (link[1], link[2][1]), before
-                if link in wiring.turning:
+                if wiring.may_turn(link):
                     azimuth = azimuth_of(wiring, link)
                     turns = before if is_zero(azimuth) else (*before, azimuth)
                 routes = seen.setdefault(enters, set())

@@ -102,7 +102,7 @@ def placement_faults(wiring: Wiring) -> list[str]:
         shapes = {port: frame.z.shape[:-1] for port, frame in frames.items()}
         if not shapes or not broadcast_fault(shapes):
             results += element.frame_faults(name, frames)
-    for link in wiring.told:
+    for link in sorted(wiring.framed_links):
         fault = _self_placed_fault(wiring, link) or _link_fault(wiring, link)
         results += [f"link '{link_text(link)}'{fault}"] if fault else []
     if wiring.placed:

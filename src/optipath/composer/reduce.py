@@ -206,8 +206,7 @@ def in_one(first: Fact, second: Fact) -> Fact | None:
 
     No digit is lost.
     """
-    here, there = first.structure, second.structure
-    one, other = here.name, there.name
+    one, other = first.structure.name, second.structure.name
     if one == other == ROTATION.name:
         (c1, s1), (c2, s2) = first.numbers, second.numbers
         return _product(ROTATION, (c1 * c2 - s1 * s2, s1 * c2 + c1 * s2))
@@ -307,11 +306,9 @@ _WORDS = 60
 
 def label_of(first: DraftStep, second: DraftStep) -> str:
     """Return the names of steps as one, the first and the last where they would be too long."""
-    one, other = first.label, second.label
-    whole = one if one == other else f"{one}, {other}"
-    if len(whole) <= _WORDS and (one == other or (", " not in one and ", " not in other)):
-        return whole
-    names = [*one.split(", "), *other.split(", ")]
+    names = [first.label, second.label]
+    if ", " in names[0] or ", " in names[1]:
+        names = [name for label in names for name in label.split(", ")]
     whole = ", ".join(dict.fromkeys(names))
     if len(whole) <= _WORDS:
         return whole

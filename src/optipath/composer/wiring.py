@@ -60,8 +60,7 @@ class Wiring:
         if loops is None and keep == self.keep:
             return self
         result = Wiring(self.graph, loops, keep)
-        shared = ("_nodes", "_links", "links_to", "couplings", "alike")
-        vars(result).update({name: vars(self)[name] for name in shared if name in vars(self)})
+        result.alike = self.alike
         return result
 
     @cached_property
@@ -114,19 +113,17 @@ class Wiring:
         return frozenset([name for name, turn in turns if type(turn) is not float or turn])
 
     @cached_property
-    def turning(self) -> frozenset[Link]:
-        """The links that may turn frames: by an azimuth, or next to frames in the world."""
-        at = self.turned | self.placed
-        return frozenset([link for link in self.links if link[1] in at]).union(self.told)
-
-    @cached_property
-    def told(self) -> list[Link]:
-        """The links that say a turn themselves, or have frames in the world at an end."""
+    def framed_links(self) -> frozenset[Link]:
+        """The links with an azimuth of their own, or frames in the world at an end."""
         azimuths, placed = self.azimuths, self.placed
-        if not azimuths and not placed:
-            return []
-        links = self.links
-        return sorted([at for at in links if at in azimuths or not placed.isdisjoint(at[:2])])
+        if not placed:
+            return frozenset(azimuths)
+        some = [link for link in self.links if not placed.isdisjoint(link[:2])]
+        return frozenset(azimuths).union(some)
+
+    def may_turn(self, link: Link) -> bool:
+        """Tell whether a link may turn frames."""
+        return link[1] in self.turned or link in self.framed_links
 
     @cached_property
     def placed(self) -> frozenset[str]:
