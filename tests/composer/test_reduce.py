@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.composer.flow import Flow
+from optipath.composer.flow import Flow, evaluated
 from optipath.composer.reduce import MODELS, passes_for
 from paths import chain
 from random_paths import Draw
@@ -68,6 +68,21 @@ def test_every_step_as_it_stands_goes_through_no_pass_and_constants_keep_their_d
     # sin^2 of a turn of 1e-6 from the crossed position.
     path = chain([op.Polarizer(0.0), op.Rotator(np.pi / 2 - 1e-6), op.Polarizer(0.0)])
     assert path.trace().intensity == pytest.approx(0.5 * np.sin(1e-6) ** 2, rel=1e-9)
+
+
+def test_constants_that_are_evaluated_together_have_the_bits_of_each():
+    rng = np.random.default_rng(3)
+    medium = op.Medium(0.1, 2.0, dichroism=0.5, retardance=0.3, rotation=0.2, depolarization=0.4)
+    elements = [op.Interface(1.5, 0.3), op.Interface(0.2 + 3j, 0.3), op.Polarizer(0.3), medium]
+    elements += [op.LayerStack([2.0, 1.4, 1.5], 0.3), op.Retarder(0.7, 0.3), op.Rotator(0.3)]
+    for element in elements:
+        for coupling in element.couplings():
+            for operation in coupling.operations:
+                kernel = operation.kernel.by_method("stable")
+                count = len(operation.arguments)
+                rows_of = rng.uniform(0.0, 1.0, (40, count)).tolist()
+                alone = [evaluated(kernel, [row])[0] for row in rows_of]
+                assert evaluated(kernel, rows_of) == alone, kernel.name
 
 
 VALUES = dict(zip("ab", np.random.default_rng(5).uniform(0.0, 1.5, (2, 50)), strict=True))

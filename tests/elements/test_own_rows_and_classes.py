@@ -1,6 +1,6 @@
 """Classes and rows of elements of a user's own: the same numbers in every run, or a sentence."""
 
-from dataclasses import field
+from dataclasses import InitVar, field
 from typing import ClassVar
 
 import numpy as np
@@ -10,9 +10,12 @@ import optipath as op
 from chains import ENGINES
 from optipath.elements.coupling import Coupling
 from optipath.kernels.carriers.structures import SCALE
+from optipath.kernels.catalog import ATTENUATOR
 from optipath.kernels.kernel import Kernel
 from optipath.kernels.primitives import FLOAT
+from optipath.values.domains import Domain
 from optipath.values.operands import Operation
+from optipath.values.use import Use
 from tables import rows
 
 
@@ -210,3 +213,90 @@ def test_imaginary_parts_are_dropped_that_are_0_in_the_precision_of_the_values(e
 
     plan = plan_of_share(share, engine, "float32", (1.0, 0.0, 0.0, 0.0))
     np.testing.assert_allclose(plan.run(a=np.linspace(0.0, 3.0, 50)).S0, 0.3, rtol=1e-6)
+
+
+ANGLES = [0.01 * place for place in range(16)]
+
+
+@rows(
+    "function, share",
+    [
+        (lambda _, a: times(float(np.mean([a, 0.5]))), lambda a: (a + 0.5) / 2.0),
+        (lambda _, a: times(0.9 if a > 0.05 else 0.4), lambda a: 0.9 if a > 0.05 else 0.4),
+        (lambda xp, a: np.array(times(float(xp.cos(a)))), np.cos),
+    ],
+)
+def test_rows_for_one_path_are_asked_one_by_one_in_a_long_path_too(function, share):
+    own = make(function, annotations={"angle": op.fields.Angle})
+    path = op.Source(1.0)
+    for angle in ANGLES:
+        path = path >> own(angle)
+    expected = np.prod([share(angle) for angle in ANGLES])
+    assert (path >> op.Detector()).trace().intensity == pytest.approx(expected, rel=1e-14)
+
+
+def test_complex_rows_of_a_jones_matrix_serve_long_paths():
+    class Rotating(op.Element):
+        angle: op.fields.Angle = 0.0
+
+        @staticmethod
+        def jones_rows(xp, angle):
+            return (xp.exp(1j * angle), 0), (0, xp.exp(-1j * angle))
+
+    path = op.Source(1.0, stokes=(1.0, 0.0, 1.0, 0.0))
+    for angle in ANGLES:
+        path = path >> Rotating(angle)
+    total = 2.0 * sum(ANGLES)
+    light = (path >> op.Detector()).trace()
+    expected = [0.0, np.cos(total), -np.sin(total)]
+    np.testing.assert_allclose(light.stokes[1:], expected, rtol=0, atol=1e-14)
+
+
+def test_elements_that_keep_more_than_their_fields_are_not_taken_for_each_other():
+    class Shutter(op.Element):
+        share: op.fields.Fraction = 0.5
+        mode: InitVar[str] = "open"
+
+        def __post_init__(self, mode):
+            super().__post_init__()
+            object.__setattr__(self, mode, 0.5)
+
+        def couplings(self):
+            share = self.share * (1.0 if hasattr(self, "open") else 0.1)
+            return (Coupling("in", "out", (Operation(ATTENUATOR, (share,)),)),)
+
+    path = op.Source(1.0) >> Shutter(0.5) >> Shutter(0.5, "shut") >> op.Detector()
+    assert path.trace().intensity == pytest.approx(0.5 * 0.05, rel=1e-15)
+
+
+def test_an_element_says_what_its_values_must_be_where_light_enters():
+    class Window(op.Element):
+        share: op.fields.Fraction = 0.5
+
+        def uses_entered(self, owner, port):
+            assert port == "in"
+            return [Use(f"{owner}.share", self.share, Domain("number", minimum=0.0, maximum=0.4))]
+
+        @staticmethod
+        def mueller_rows(_, share):
+            return times(share)
+
+    assert (op.Source(1.0) >> Window(0.3) >> op.Detector()).trace().intensity == 0.3
+    with pytest.raises(op.errors.PathError, match=r"share is 0.5; give .* 0 .. 0.4"):
+        (op.Source(1.0) >> Window(0.5) >> op.Detector()).compose()
+
+
+def test_what_one_step_comes_to_is_known_to_the_next():
+    half = Kernel("half", SCALE, lambda _: lambda share: (0.5 * share,))
+
+    class Twice(op.Element):
+        share: op.fields.Fraction = 0.5
+
+        def couplings(self):
+            first = Operation(half, (self.share,))
+            second = Operation(half, first.results(1))
+            return (Coupling("in", "out", (first, second)),)
+
+    path = op.Source(1.0) >> Twice(0.4) >> Twice(0.8) >> op.Detector()
+    assert path.trace().intensity == pytest.approx(0.2 * 0.1 * 0.4 * 0.2, rel=1e-15)
+    assert len(path.compose().program.steps) == 2

@@ -215,13 +215,16 @@ def test_a_store_may_be_at_a_url_and_a_place_that_cannot_be_is_told():
 
 
 def test_who_is_interrupted_in_making_a_store_goes_on_and_others_share_it(store, monkeypatch):
+    url = "memory://stores/interrupted.zarr"
     with monkeypatch.context() as patch:
         patch.setattr("zarr.consolidate_metadata", Mock(side_effect=KeyboardInterrupt))
-        with pytest.raises(KeyboardInterrupt):
-            keep_blocks(Powers(2), store)
-    refused_by_others = pytest.raises(JobError, match="another job: it has 'powers'")
-    with refused_by_others:
-        keep_blocks(Powers(2, title="others"), store)
+        for place in (store, url):
+            with pytest.raises(KeyboardInterrupt):
+                keep_blocks(Powers(2), place)
+    assert not [*store.parent.iterdir()], "a folder is put in its place when all is in it"
+    with pytest.raises(JobError, match="another job: it has 'powers'"):
+        keep_blocks(Powers(2, title="others"), url)
+    assert np.array_equal(keep_blocks(Powers(2), url).arrays["power"][:], powers(2))
     keep_blocks(Powers(2), store)
     assert marked(store) == {0, 1}
     # Another job that comes to be in the same place at the same time is none of ours.
@@ -265,3 +268,19 @@ def test_dark_blocks_and_blocks_of_nan_are_kept_too(store, monkeypatch):
     assert found.shape == powers(2).shape
     assert np.isnan(found[:4]).all()
     assert np.signbit(found[4:]).all()
+
+
+def test_one_of_two_runs_that_make_a_store_at_once_takes_that_of_the_other(store, monkeypatch):
+    consolidate, others = zarr.consolidate_metadata, []
+
+    def first(*args, **options):
+        if not others:  # The other run begins and ends while this one is making its own.
+            others.append(None)
+            others[0] = keep_blocks(Powers(2), store).arrays["power"][:]
+        return consolidate(*args, **options)
+
+    monkeypatch.setattr("zarr.consolidate_metadata", first)
+    mine = keep_blocks(Powers(2), store)
+    assert np.array_equal(mine.arrays["power"][:], powers(2))
+    assert np.array_equal(others[0], powers(2))
+    assert [each.name for each in store.parent.iterdir()] == [store.name]

@@ -338,25 +338,27 @@ class Facts:
 
     def look_up(self, items: Iterable[DraftStep]) -> None:
         """Find what is known of the operations of items; those of one kernel together."""
-        known = self._known
+        known, waiting = self._known, dict[int, Fact]()
         alike: dict[int, list[tuple[Fact, Sequence[float]]]] = {}
         for item in items:
             operation = item.operation
-            if (fact := known.get(id(operation))) is None:
-                fact = known[id(operation)] = Fact(operation, None)
+            fact = known.get(id(operation)) or waiting.get(id(operation))
+            if fact is None:
+                fact = waiting[id(operation)] = Fact(operation, None)
                 if (numbers := self._numbers(operation)) is not None:
                     alike.setdefault(id(operation.kernel), []).append((fact, numbers))
             item.fact = fact
         for several in alike.values():
-            outcomes = _evaluated(several[0][0].operation.kernel, [row for _, row in several])
+            outcomes = evaluated(several[0][0].operation.kernel, [row for _, row in several])
             for (fact, _), outcome in zip(several, outcomes, strict=True):
                 fact.numbers = outcome
+        known.update(waiting)
 
     def of(self, operation: Operation) -> Fact:
         """Return what is known of an operation."""
         if (fact := self._known.get(id(operation))) is None:
             numbers = self._numbers(operation)
-            outcome = None if numbers is None else _evaluated(operation.kernel, [numbers])[0]
+            outcome = None if numbers is None else evaluated(operation.kernel, [numbers])[0]
             fact = self._known[id(operation)] = Fact(operation, outcome)
         return fact
 
@@ -445,7 +447,7 @@ def _of_kernel(kernel: Kernel, signs: tuple[Entry, ...], may_be_absent: bool) ->
 
 def _open_numbers(kernel: Kernel, signs: tuple[Entry, ...]) -> tuple[Entry, ...]:
     """Return what a kernel declares of its numbers, for arguments that are 0 or 1."""
-    outcome = None if None in signs else _evaluated(kernel, [signs])[0]
+    outcome = None if None in signs else evaluated(kernel, [signs])[0]
     if outcome is None:
         zeros = {place for place, number in enumerate(signs) if number == 0.0}
         return kernel.known_numbers(zeros, len(signs))
@@ -456,9 +458,9 @@ _MANY = 16
 """From how many on operations are evaluated together."""
 
 
-def _evaluated(kernel: Any, rows: list[Any]) -> list[tuple[float, ...] | None]:
+def evaluated(kernel: Any, rows: list[Any]) -> list[tuple[float, ...] | None]:
     """Return what a kernel makes of each row of numbers, many together with the bits of floats."""
-    if len(rows) >= _MANY and kernel.of_library:
+    if len(rows) >= _MANY and kernel.is_built_in:
         with suppress(ArithmeticError, ValueError), np.errstate(all="ignore"):
             results = kernel.made_for(FLOAT_ARRAYS)(*np.array(rows).T)
             numbers = np.array([np.broadcast_to(each, len(rows)) for each in results])

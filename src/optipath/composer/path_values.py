@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements.boundary_media import MediaOfBoundary
+from optipath.elements.element import Alike, Element
 from optipath.elements.own_element import couplings_of
 from optipath.errors import ValueFault
 from optipath.materials.quantities import ANGLE, SPECTRAL
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.elements.element import Alike
     from optipath.values.agreement import Agreement
 
 
@@ -84,8 +84,8 @@ class Values:
         """Return the numbers that must be something besides, where links lead to some port."""
         entries: dict[tuple[int, str], str] = {}
         linked = self.wiring.links_to
-        for name in self.alike.where(lambda element: bool(element.asking)):
-            for port in self.alike[name].asking:
+        for name in self.alike.where(lambda e: type(e).uses_entered is not Element.uses_entered):
+            for port in self.alike[name].inputs:
                 if (name, port) in linked:
                     entries.setdefault((id(self.alike[name]), port), name)
         every = [(name, port) for (_, port), name in entries.items()]

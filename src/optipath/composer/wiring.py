@@ -224,7 +224,7 @@ class Wiring:
         for start, end, (leaves, enters) in () if taps else self.taps:
             left_out.add((self.number(start, leaves), self.number(end, enters)))
         return {
-            ports[at]: [ports[to] for to in onwards if (at, to) not in left_out]
+            ports[at]: [ports[to] for to in sorted(onwards) if (at, to) not in left_out]
             for at, onwards in enumerate(self.ways)
         }
 

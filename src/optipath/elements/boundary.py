@@ -62,7 +62,6 @@ class BoundaryElement(MediaOfBoundary, FourPort):
     """
 
     may_follow: ClassVar[tuple[str, ...]] = ("outside", "incidence")
-    asking: ClassVar[tuple[str, ...]] = ("back",)
     lit_behind: ClassVar[Any] = LIT_BEHIND
 
     @property
@@ -73,7 +72,7 @@ class BoundaryElement(MediaOfBoundary, FourPort):
         return face.incidence, face.outside if before is None else before
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
-        if port not in self.asking:
+        if port != "back":
             return []
         parts = self.lit_behind.parts(self.media_fields[1], self.medium_at("back"))
         return [Use(f"{owner}.{name}", value, domain) for name, value, domain in parts]

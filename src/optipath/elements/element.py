@@ -180,9 +180,9 @@ class Element(Chainable):
     detects: ClassVar[bool] = False
     physical: ClassVar[bool] = True
     mirrored: ClassVar[tuple[str, ...] | None] = None
-    asking: ClassVar[tuple[str, ...]] = ()
     _ports_back: ClassVar[dict[str, str]] = {}
     _kernel: ClassVar[Kernel | None] = None
+    _kept: ClassVar[tuple[str, ...]] = ()
     _is_sound: ClassVar[bool] = False  # Whether the values have been checked, and are allowed.
 
     __array_ufunc__ = None  # NumPy's arrays leave products to it.
@@ -194,6 +194,7 @@ class Element(Chainable):
         if is_own(cls):
             PathError.raise_for(class_faults(cls, Element, kind))
         cls.kind = kind
+        cls._kept = (*[field.name for field in fields(cls)], "_is_sound")  # type: ignore[arg-type]
         if kind:
             register(kind, cls)
         for which in ROWS.keys() & vars(cls).keys():
@@ -208,15 +209,14 @@ class Element(Chainable):
     @property
     def key(self) -> Hashable:
         """What equal elements share; of those with arrays, or not checked yet, each has its own."""
-        cls: Any = type(self)
-        own = vars(self)
+        cls, own = type(self), vars(self)
         values = own.values()
         if not self._is_sound or not _HASHED.issuperset(map(type, values)):
             return id(self)
         # 0 is not -0.
         signs = [copysign(1.0, value) for value in values if type(value) is float and not value]
         # Elements of a user's own may keep more than their fields.
-        more = own if len(own) != len(cls.__match_args__) + 1 else ()
+        more = () if tuple(own) == cls._kept else own
         return (cls, *values, *signs, *more)
 
     def named(self, name: str) -> NamedElement:
@@ -249,8 +249,6 @@ class Element(Chainable):
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
         """Return the numbers that must be something besides, where a link leads to a port.
-
-        Asked of the `asking` ports alone.
 
         Parameters
         ----------

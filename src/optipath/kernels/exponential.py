@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels.primitives import NUMPY, Primitives, is_below_rounding
+from optipath.kernels.primitives import NUMPY, Primitives, is_below_rounding, total
 from optipath.kernels.trigonometry import DIGITS, any_quadrant, arc_tangent
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def complementary_error(xp: Primitives) -> Callable[[Any], Any]:
 
     def erfc(x: Any) -> Any:
         square = x * x
-        series = sum(weight / (node + square) for node, weight in _WEIGHTS.items())
+        series = total([weight / (node + square) for node, weight in _WEIGHTS.items()])
         residue = exponential(-2.0 * pi / _STEP * x)
         return x * exponential(-square) * series + 2.0 * residue / (1.0 + residue)
 

@@ -75,6 +75,11 @@ class Kernel:
         """Whether it comes with the library, so that nothing it raises is a user's doing."""
         return is_defined_in("optipath.", self.factory)
 
+    @cached_property
+    def is_built_in(self) -> bool:
+        """Whether it is one of `optipath.kernels`, of which all are elementwise."""
+        return is_defined_in("optipath.kernels.", self.factory)
+
     def specialised(
         self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
     ) -> tuple[Kernel, tuple[Any, ...]]:

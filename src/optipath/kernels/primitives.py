@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import lru_cache, partial
+from functools import lru_cache, partial, reduce
+from operator import add
 from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
@@ -173,7 +174,12 @@ _SEVERAL = 64.0
 def products(*pairs: tuple[Any, Any]) -> Any:
     """Return the sum of products, without those that have a plain 0 for a factor."""
     terms = [a * b for a, b in pairs if not (_is_plain_zero(a) or _is_plain_zero(b))]
-    return sum(terms[1:], start=terms[0]) if terms else 0.0 * pairs[0][0] * pairs[0][1]
+    return total(terms) if terms else 0.0 * pairs[0][0] * pairs[0][1]
+
+
+def total(numbers: Iterable[Any]) -> Any:
+    """Return a sum from left to right; Python's own has more digits of floats than of arrays."""
+    return reduce(add, numbers)
 
 
 def _is_plain_zero(number: Any) -> bool:

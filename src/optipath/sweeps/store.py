@@ -10,11 +10,13 @@ from __future__ import annotations
 import json
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
 from itertools import zip_longest
 from pathlib import Path
+from secrets import token_hex
+from shutil import rmtree
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 import numpy as np
@@ -80,13 +82,33 @@ class BlockStore:
         """Return the store of a job, made if nothing is there."""
         record = _record_of(job)
         seal = sha256(json.dumps(record).encode()).hexdigest()
-        is_free = _is_free(place)
-        store = cls(place if "://" in place else str(Path(place).resolve()), seal, is_free)
+        is_new, is_here = _is_free(place), "://" not in place
+        store = cls(str(Path(place).resolve()) if is_here else place, seal, is_new)
         with store._writing():
-            store._open(job, record)
+            if is_new and is_here:
+                store = replace(store, is_new=store._put(job, record))
+            store.begin(job, record)
         return store
 
-    def _open(self, job: BlockJob, record: Mapping[str, Any]) -> None:
+    def _put(self, job: BlockJob, record: Mapping[str, Any]) -> bool:
+        """Put the store in its place at once, lest another run finds half of it; tell if it is."""
+        place = Path(self.place)
+        draft = replace(self, place=str(place.with_name(f".{place.name}.{token_hex(8)}")))
+        try:
+            draft.begin(job, record)
+            with suppress(OSError):  # An empty folder, which not every system replaces.
+                place.rmdir()
+            Path(draft.place).rename(place)
+        except OSError:
+            if not (place / _RECORD).is_dir():
+                raise
+            return False  # Another run has put its own there.
+        finally:
+            rmtree(draft.place, ignore_errors=True)
+        return True
+
+    def begin(self, job: BlockJob, record: Mapping[str, Any]) -> None:
+        """Make what is not there yet, and check that all is of this job."""
         try:
             if self.is_new:
                 group = self.group.require_group(_RECORD)

@@ -18,13 +18,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.structures import Intensities, along_x_and_y, in_all
 from optipath.kernels.linear_solve import Elimination, is_zero
+from optipath.kernels.primitives import Primitives, total
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from optipath.kernels.carriers.carried import Components, SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
-    from optipath.kernels.primitives import Primitives
 
 
 class IntensityCarrier(Carrier):
@@ -136,7 +136,7 @@ def _passed(light: Sequence[Any], shares: Sequence[Any]) -> tuple[Any, ...]:
 def _added(*pairs: tuple[Any, Any]) -> Any:
     """Return the sum of products, a plain 0 where each has a plain 0 for a factor."""
     terms = [a * b for a, b in pairs if not (is_zero(a) or is_zero(b))]
-    return sum(terms[1:], start=terms[0]) if terms else 0.0
+    return total(terms) if terms else 0.0
 
 
 class BoundsCarrier(Carrier):
@@ -288,6 +288,6 @@ class BoundsCarrier(Carrier):
         if len(parts) > 1:
             largest = reduce(xp.maximum, map(xp.absolute, parts))
             unit = xp.where(largest > 0.0, largest, 1.0)
-            length = largest * xp.sqrt(sum((part / unit) * (part / unit) for part in parts))
+            length = largest * xp.sqrt(total([(part / unit) * (part / unit) for part in parts]))
         there = whole > 0.0
         return xp.where(there, length / xp.where(there, whole, 1.0), 0.0)

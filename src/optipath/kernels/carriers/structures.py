@@ -30,7 +30,7 @@ from optipath.kernels.carriers.carried import (
     leaving,
     stokes_of,
 )
-from optipath.kernels.primitives import NUMPY, made, not_below_rounding, products
+from optipath.kernels.primitives import NUMPY, made, not_below_rounding, products, total
 from optipath.kernels.vectors import hypotenuse
 
 if TYPE_CHECKING:
@@ -409,5 +409,6 @@ _FOUR_TIMES = _places(FROM_MUELLER.real), _places(FROM_MUELLER.imag)
 def _sum(numbers: Numbers, added: list[int], subtracted: list[int]) -> Any:
     if not added:
         return 0.0
-    first, *others = [numbers[place] for place in added]
-    return reduce(sub, [numbers[place] for place in subtracted], sum(others, first))
+    return reduce(
+        sub, [numbers[place] for place in subtracted], total([numbers[at] for at in added])
+    )
