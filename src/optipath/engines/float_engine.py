@@ -22,7 +22,6 @@ from optipath.engines.symbols import (
     reproducible_symbolic,
 )
 from optipath.kernels.carriers.carrier import Carrier
-from optipath.kernels.kernel import is_defined_in
 from optipath.kernels.primitives import FLOAT
 
 if TYPE_CHECKING:
@@ -241,7 +240,7 @@ class CallingCarrier(Carrier):
         if not any(isinstance(argument, Symbol) for argument in arguments):
             return super().evaluated(kernel, arguments)
         # A kernel of a user's own may read what changes.
-        key = kernel if is_defined_in("optipath.kernels.", kernel.factory) else None
+        key = kernel if kernel.is_built_in else None
         return call(self.recorder, key, kernel.made_for, arguments)
 
     def emit(self, stokes: Components, count: int = 4) -> Any:

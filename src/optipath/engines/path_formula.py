@@ -15,7 +15,6 @@ from optipath.engines.symbols import ONE_AXIS, SYMBOLIC, Recorder, reproducible_
 from optipath.kernels.carriers.carrier import MatrixCarrier, StokesCarrier
 from optipath.kernels.carriers.intensities import BoundsCarrier, largest_error
 from optipath.kernels.carriers.structures import FULL, is_physical
-from optipath.kernels.kernel import is_defined_in
 from optipath.kernels.trigonometry import DIGITS
 from optipath.light.polarization_state import UNDERFLOW
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE
@@ -102,8 +101,7 @@ class PathFormula:
         """Whether nothing amplifies, so that what is 0 on the way is 0 at the end."""
         kernels = [evaluation.kernel for evaluation in self.program.evaluations]
         return not self.program.loops and all(
-            kernel.structure is not FULL and is_defined_in("optipath.kernels.", kernel.factory)
-            for kernel in kernels
+            kernel.structure is not FULL and kernel.is_built_in for kernel in kernels
         )
 
     def matrix(self, source: str, reading: Reading) -> Formula:

@@ -73,12 +73,12 @@ class Kernel:
     @cached_property
     def of_library(self) -> bool:
         """Whether it comes with the library, so that nothing it raises is a user's doing."""
-        return is_defined_in("optipath.", self.factory)
+        return _is_defined_in("optipath.", self.factory)
 
     @cached_property
     def is_built_in(self) -> bool:
         """Whether it is one of `optipath.kernels`, of which all are elementwise."""
-        return is_defined_in("optipath.kernels.", self.factory)
+        return _is_defined_in("optipath.kernels.", self.factory)
 
     def specialised(
         self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
@@ -200,7 +200,7 @@ def called(
         raise in_words(what, error) from error
 
 
-def is_defined_in(package: str, factory: Any) -> bool:
+def _is_defined_in(package: str, factory: Any) -> bool:
     """Tell whether what makes a kernel is defined in a package, or its class is."""
     maker = factory if hasattr(factory, "__name__") else type(factory)
     return str(getattr(maker, "__module__", "")).startswith(package)

@@ -20,7 +20,6 @@ from optipath.engines.choice import (
     EngineChoice,
 )
 from optipath.errors import ValueFault
-from optipath.kernels.kernel import is_defined_in
 from optipath.plan.batches import BatchRunner, Results
 from optipath.plan.reading import Layout, pieces
 from optipath.plan.runnable import Runnable
@@ -346,7 +345,7 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
         return None
     # A kernel of a user's own may read what changes.
     kernels = [evaluation.kernel for evaluation in program.evaluations]
-    if not all(is_defined_in("optipath.kernels.", kernel.factory) for kernel in kernels):
+    if not all(kernel.is_built_in for kernel in kernels):
         return None
     return (
         tuple(operands),
