@@ -138,14 +138,14 @@ class Flow:
             if isinstance(node, tuple):
                 made.close({at.light: [each.light for each in at.inputs] for at in node})
             elif node.source is not None:
-                node.light = made.step(node.source.label, (), node.source.operation)
+                node.light = made.share(node.source, ())
             elif node.label:
                 inputs = [] if node.is_junction else node.inputs
                 node.light = made.sum(node.label, [each.light for each in inputs])
             else:
                 light = node.inputs[0].light
                 for item in node.items:
-                    light = made.step(item.label, (light,), item.operation, item.presence)
+                    light = made.share(item, (light,))
                 node.light = light
         ends: dict[str, Any] = {}
         for which in ENDS:
@@ -294,8 +294,6 @@ def _mask(signs: Any) -> int:
     return sum([bool(sign) << place for place, sign in enumerate(signs)])
 
 
-_FLOATS = frozenset({float})
-
 _zero_or_one = dict[Entry, Entry]({0.0: 0.0, 1.0: 1.0}).get
 """Which number it is seldom matters, but for these two."""
 
@@ -380,11 +378,10 @@ class Facts:
         """Return the numbers that an operation is given, if all are known."""
         if self._closed:
             return None
-        arguments: Any = operation.arguments
-        if _FLOATS.issuperset(map(type, arguments)):
-            return tuple(arguments)
+        if operation.is_of_floats:
+            return operation.arguments
         numbers: list[float] = []
-        for argument in arguments:
+        for argument in operation.arguments:
             if type(argument) is ResultOf:
                 results = self.of(argument.operation).numbers
                 number = None if results is None else results[argument.place]

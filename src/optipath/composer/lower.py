@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.composer.placement import alignment, frame_at, vertex_frame
 from optipath.composer.wiring import link_text
-from optipath.engines.draft import Draft
+from optipath.engines.draft import Draft, DraftStep
 from optipath.engines.program import Reading
 from optipath.errors import ComposerError
 from optipath.faults import listed
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 
 _FEW = 8
-_FLOATS = frozenset({float})
 
 _UNIT = Frame()
 
@@ -80,7 +79,7 @@ class _Lowering:
             response = getattr(element, "response", None)
             if response is not None:
                 reads = self._lowered(Operation(RESPONSE, (response,)))
-                light = self.draft.step(f"{name}.response", (light,), reads)
+                light = self.draft.add(DraftStep(f"{name}.response", (light,), reads))
             components = _COMPONENTS[getattr(element, "reads", "stokes")]
             frame = self._reading_frame(name, port)
             ends[element.detects][name] = Reading(light, frame, components)
@@ -144,7 +143,7 @@ class _Lowering:
             turn := alignment(self.wiring, link)
         ) is None:
             return light
-        return self.draft.step(link_text(link), (light,), self._lowered(turn))
+        return self.draft.add(DraftStep(link_text(link), (light,), self._lowered(turn)))
 
     def _pass(self, name: str, coupling: Coupling) -> int:
         label = f"{name}.{coupling.leaves}"
@@ -154,7 +153,7 @@ class _Lowering:
             known = self._ways[id(coupling)] = _presence(coupling.operations), operations, coupling
         presence, operations, _ = known
         if coupling.enters is None:
-            light = self.draft.step(label, (), operations[0], bounces=0)
+            light = self.draft.add(DraftStep(label, (), operations[0], bounces=0))
             self.sources[name] = (light, self._frame_behind(name, coupling.leaves))
             return light
         light = self.lights[name, coupling.enters]
@@ -166,13 +165,13 @@ class _Lowering:
         last = len(operations) - 1
         for place, operation in enumerate(operations):
             bounces = int(coupling.reflects and place == last)
-            light = self.draft.step(label, (light,), operation, presence, bounces)
+            light = self.draft.add(DraftStep(label, (light,), operation, presence, bounces))
         return light
 
     def _lowered(self, operation: Operation) -> Operation:
         """Return an operation by the method, with floats, operands and results as arguments."""
         kernel = operation.kernel.by_method(self.method)
-        if _FLOATS.issuperset(map(type, operation.arguments)):
+        if operation.is_of_floats:
             is_one = kernel is operation.kernel
             return operation if is_one else Operation(kernel, operation.arguments)
         known: dict[int, Operation] = {}

@@ -273,13 +273,8 @@ class Element(Chainable):
         """Return the numbers that the values are made of, each with what it must be."""
         if self._is_sound and _PLAIN.issuperset(map(type, vars(self).values())):
             return []  # Nothing of it is given later, or has a shape.
-        sound, plain = self._is_sound, _PLAIN if self._is_sound else ()
-        return [
-            Use(f"{owner}.{name}", value, of, sound)
-            for name, value, of in self.quantities()
-            # A Material may be given for an open n beside a k that is known.
-            if type(value) not in plain or name.endswith((".n", ".k"))
-        ]
+        sound = self._is_sound
+        return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
 
     def agreements(self, owner: str) -> Iterable[Agreement]:
         """Return what must fit of the values, known or given when the path runs."""

@@ -50,12 +50,14 @@ class Steps:
         self.steps: list[Any] = []
         self.loops: list[tuple[tuple[int, ...], int]] = []
 
+    def add(self, step: Any) -> int:
+        """Add a step, and return its place."""
+        self.steps.append(step)
+        return len(self.steps) - 1
+
     def sum(self, label: str, lights: Sequence[int]) -> int:
         """Add the sum of several lights; one alone is itself. Of a junction, `close` says which."""
-        if len(lights) == 1:
-            return lights[0]
-        self.steps.append(self.of_sum(label, tuple(lights)))
-        return len(self.steps) - 1
+        return lights[0] if len(lights) == 1 else self.add(self.of_sum(label, tuple(lights)))
 
     def close(self, inputs: Mapping[int, Sequence[int]]) -> None:
         """Say what the junctions of a loop add up, now that all of its steps are there."""
@@ -73,27 +75,12 @@ class Draft(Steps):
         super().__init__()
         self.ends: dict[str, Any] = {}
 
-    def step(
-        self,
-        label: str,
-        inputs: tuple[int, ...],
-        operation: Operation,
-        presence: Operand | None = None,
-        bounces: int | None = None,
-    ) -> int:
-        """Add a step that does something to light."""
-        self.steps.append(DraftStep(label, inputs, operation, presence, bounces))
-        return len(self.steps) - 1
-
     @cached_property
     def program(self) -> Program:
         """The program, made when it is first needed."""
         shared = SharedSteps()
         for step in self.steps:
-            if step.operation is None:
-                shared.steps.append(Step(step.label, step.inputs))
-            else:
-                shared.step(step.label, step.inputs, step.operation, step.presence, step.bounces)
+            shared.share(step, step.inputs)
         shared.loops = self.loops
         return shared.program(self.ends)
 
@@ -125,20 +112,12 @@ class SharedSteps(Steps):
         # By the numbers of operations, kept with these, lest others get them.
         self._place_of: dict[Any, tuple[int, Operation]] = {}
 
-    def step(
-        self,
-        label: str,
-        inputs: tuple[int, ...],
-        operation: Operation,
-        presence: Operand | None = None,
-        bounces: int | None = None,
-    ) -> int:
-        """Add a step that does something to light."""
-        key = id(operation) if presence is None else (id(operation), id(presence))
-        if (known := self._place_of.get(key)) is None:
-            known = self._evaluation(operation, presence)
-        self.steps.append(Step(label, inputs, known[0], bounces is not None, bounces or 0))
-        return len(self.steps) - 1
+    def share(self, step: DraftStep, inputs: tuple[int, ...]) -> int:
+        """Add a step of a draft, which does to other lights what it does to its own."""
+        if step.operation is None:
+            return self.add(Step(step.label, inputs))
+        place, bounces = self._place(step.operation, step.presence), step.bounces
+        return self.add(Step(step.label, inputs, place, bounces is not None, bounces or 0))
 
     def program(self, ends: Mapping[str, Any]) -> Program:
         """Return the program."""
@@ -146,16 +125,16 @@ class SharedSteps(Steps):
         operands, evaluations = tuple(self.operands), tuple(self.evaluations)
         return Program(operands, evaluations, tuple(self.steps), loops=loops, **ends)
 
-    def _evaluation(
-        self, operation: Operation, presence: Operand | None = None
-    ) -> tuple[int, Operation]:
+    def _place(self, operation: Operation, presence: Operand | None = None) -> int:
+        """Return the place of an evaluation."""
+        of_operation = id(operation) if presence is None else (id(operation), id(presence))
+        if (known := self._place_of.get(of_operation)) is not None:
+            return known[0]
         arguments: list[int | Result] = []
-        known, numbers = self._operand_at, self._number_at
+        numbers = self._number_at
         for argument in operation.arguments:
             if type(argument) is ResultOf:
-                inner = argument.operation
-                known_inner = self._place_of.get(id(inner)) or self._evaluation(inner)
-                arguments.append(Result(known_inner[0], argument.place))
+                arguments.append(Result(self._place(argument.operation), argument.place))
                 continue
             number = argument
             if type(argument) is Operand and argument.part == "value":
@@ -165,8 +144,8 @@ class SharedSteps(Steps):
                 if (place := numbers.get(key)) is None:
                     place = numbers[key] = len(self.operands)
                     self.operands.append(operand_of(argument))
-            elif (place := known.get(key := argument.key())) is None:
-                place = self._entered(argument, key)
+            else:
+                place = self._entered(argument, argument.key())
             arguments.append(place)
         there = None if presence is None else self._entered(presence, presence.key())
         kernel: Any = operation.kernel
@@ -174,9 +153,8 @@ class SharedSteps(Steps):
         index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
         if index == len(self.evaluations):
             self.evaluations.append(evaluation)
-        key = id(operation) if presence is None else (id(operation), id(presence))
-        self._place_of[key] = result = index, operation
-        return result
+        self._place_of[of_operation] = index, operation
+        return index
 
     def _entered(self, operand: Operand, key: Hashable) -> int:
         """Return the place of an operand; those without a key are equal to none."""

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 
 _DOUBLE = np.dtype(np.float64)
+_FLOATS = frozenset({float})
 
 NOTHING: Mapping[str, Resolved] = MappingProxyType({})
 """What is given where all is known."""
@@ -212,6 +213,11 @@ class Operation(ComparedByFields):
 
     kernel: Kernel | KernelFamily
     arguments: tuple[Any, ...]
+
+    @property
+    def is_of_floats(self) -> bool:
+        """Whether it is given plain floats alone."""
+        return _FLOATS.issuperset(map(type, self.arguments))
 
     def results(self, count: int) -> tuple[ResultOf, ...]:
         """Return as many numbers as it comes to, as arguments of other operations."""
